@@ -196,6 +196,10 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.kept_markers = a.kept.any() ? a.kept.markers() : reported.kept_markers;
   if (!a.reasons.empty()) options.reasons = &reported.reasons;
   set_surface(a, reported, options);
+  const std::vector<std::string>& periodic = a.periodic.empty() ? reported.periodic : a.periodic;
+  const double tolerance = options.tolerance.value_or(plc ? tolerance_of(*plc) : rounding_of(mesh));
+  const PeriodicCheck in_step = check_periodic(mesh, periodic_sides<D>(periodic, plc ? plc->names : mesh.names), 2 * tolerance);
+  for (const PeriodicPairs& p : in_step.pairs) options.kept_sides.insert(options.kept_sides.end(), {p.from, p.to});
   CheckReport verdict = pgdr::check(mesh, options);
   std::optional<BodyCheck> bodies;
   if constexpr (D == 3)
@@ -205,9 +209,6 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
-  const std::vector<std::string>& periodic = a.periodic.empty() ? reported.periodic : a.periodic;
-  const double tolerance = options.tolerance.value_or(plc ? tolerance_of(*plc) : rounding_of(mesh));
-  const PeriodicCheck in_step = check_periodic(mesh, periodic_sides<D>(periodic, plc ? plc->names : mesh.names), 2 * tolerance);
   if (in_step.failure) report.add_error(*in_step.failure);
   if (!periodic.empty()) in_step.failure ? report.set("periodic", nullptr) : set_periodic(report, in_step.pairs);
   const std::size_t unused = unused_points(mesh).size();

@@ -43,8 +43,9 @@ CLI::Option* add_kept(CLI::App& app, KeptArguments& kept, const std::string& wha
 
 void set_kept(JsonObject& report, const KeptArguments& kept, const RefineStatistics& s) {
   report.set("keep_boundary", kept.any());
-  if (!kept.any()) return;
-  if (const std::vector<int> markers = kept.markers(); !markers.empty()) report.set("kept_markers", markers);
+  if (!kept.any() && s.boundary_points + s.inner_points == 0) return;  // of periodic sides there may be some
+  if (const std::vector<int> markers = kept.any() ? kept.markers() : std::vector<int>(); !markers.empty())
+    report.set("kept_markers", markers);
   report.set("kept_boundary", JsonObject{{"boundary_points", s.boundary_points}, {"inner_points", s.inner_points}});
 }
 

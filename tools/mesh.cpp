@@ -176,8 +176,10 @@ class MeshRun {
     if constexpr (D == 3) make_surface();
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) * part_for_meshing);
-    if constexpr (D == 2) make_sides();
+    make_sides();
     refine_here();
+    if constexpr (D == 3)
+      if (periodic_) name_as_given(*periodic_, result_.mesh, result_.reasons);
     if constexpr (D == 3)
       if (surface_) name_facets_by_places(plc_, result_.reasons);  // the input does not have these facets
     if (old_) {
@@ -193,15 +195,18 @@ class MeshRun {
   }
 
   /// Divides sides that are to correspond.
-  void make_sides() requires(D == 2) {
+  void make_sides() {
     if (a_.periodic.empty()) return;
-    PeriodicInput<D> made = make_periodic(plc_, periodic_sides<2>(a_.periodic, plc_.names), options_);
-    plc_ = std::move(made.plc);
-    sides_ = std::move(made.sides);
-    if (made.keep_boundary) options_.kept_markers = std::move(made.kept_markers);
-    options_.keep_boundary = options_.keep_boundary || made.keep_boundary;
+    const Stopwatch watch;
+    periodic_ = make_periodic(plc_, periodic_sides<D>(a_.periodic, plc_.names), options_);
+    plc_ = periodic_->plc;
+    sides_ = periodic_->sides;
+    if (periodic_->keep_boundary) options_.kept_markers = periodic_->kept_markers;
+    options_.keep_boundary = options_.keep_boundary || periodic_->keep_boundary;
     report_.set("periodic_sides", a_.periodic);
-    report_.set("periodic_rounds", made.rounds);
+    report_.set("periodic_rounds", periodic_->rounds);
+    if (a_.time_limit)
+      options_.time_limit = std::chrono::duration<double>(std::max(0.0, options_.time_limit->count() - watch.seconds()));
   }
 
   /// Puts another surface in the place of the given one, where that is asked for.
@@ -337,6 +342,7 @@ class MeshRun {
   bool is_read_ = false;
   std::size_t given_points_ = 0;
   std::optional<BodyTable> bodies_;
+  std::optional<PeriodicInput<D>> periodic_;
   std::vector<PeriodicSides<D>> sides_;  ///< that correspond
   std::vector<PeriodicPairs> pairs_;
   std::optional<SurfaceStep> surface_;  ///< what was put in the place of the surface as given
@@ -369,8 +375,8 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   });
   dimension = ranks.largest(dimension);
   require_3d(arguments.surface, dimension);
-  if (!arguments.periodic.empty() && (dimension == 3 || ranks.transport()))
-    throw UsageError({.code = Errc::bad_option, .message = "--periodic is for 2D, and one process"});
+  if (!arguments.periodic.empty() && ranks.transport())
+    throw UsageError({.code = Errc::bad_option, .message = "--periodic is for one process"});
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

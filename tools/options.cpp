@@ -168,8 +168,8 @@ void add_run(CLI::App& app, MeshArguments& a) {
   add_regions(app, a.regions, a.reading.bodies);
   auto* keep = add_kept(app, a.kept, "no new points on the boundary, of which every given triangle stays as it is");
   add_periodic(app, a.periodic,
-               "2D: the sides with these markers, or names, correspond vertex by vertex; repeatable. By the translation between "
-               "them, or a rigid motion of 6 numbers: x' = a x + b y + c, y' = d x + e y + f");
+               "the sides with these markers, or names, of segments (3D: facets) correspond vertex by vertex; repeatable. By the "
+               "translation between them, or a rigid motion of 6 (3D: 12) numbers, row by row: x' = a x + b y + c, ...");
   app.add_flag("--conforming-delaunay", a.conforming_delaunay,
                "2D: split segments until every triangle is Delaunay across them, too, and its circumcentre in the domain")
       ->excludes(keep);

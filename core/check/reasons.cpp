@@ -310,8 +310,26 @@ auto Reasons<D>::in_wedge(const PoorReason& reason, std::string& why) -> Verdict
   return at_segment ? Verdict::admitted : fail("it has no edge on " + words_of<D>(reason.entities[0]));
 }
 
+/// Is it a facet of a side whose subfacets are kept as they are?
+template <int D>
+bool Reasons<D>::is_side(const GivenEntity& name) const {
+  if (name.kind != EntityKind::facet || !options_.input || name.facet >= options_.input->facets.size()) return false;
+  return std::ranges::find(options_.kept_sides, options_.input->facets[name.facet].marker) != options_.kept_sides.end();
+}
+
+template <int D>
+bool Reasons<D>::is_subfacet(std::array<std::uint32_t, 3> corners) {
+  if (sorted_subfacets_.empty()) {
+    for (const auto& f : mesh_.subfacets) std::ranges::sort(sorted_subfacets_.emplace_back(f.vertices));
+    std::ranges::sort(sorted_subfacets_);
+  }
+  std::ranges::sort(corners);
+  return std::ranges::binary_search(sorted_subfacets_, corners);
+}
+
 /// A segment in one piece, or a facet without points of its own, that meets the cell's circumball, doubled, or has its centre in
-/// the smallest ball about the segment, or about a triangle of the facet.
+/// the smallest ball about the segment, or about a triangle of the facet. Of a side it is the subfacets that count, and their
+/// edges.
 template <int D>
 bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   const auto fail = [&](std::string text) {
@@ -321,9 +339,9 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   if (!named_) return fail("whether the boundary was kept cannot be seen without the input");
   const Entity* e = pair_of(reason).a;
   if (!e) return fail("it names no segment and no facet of the input");
-  const bool is_segment = e->kind == EntityKind::segment;
+  const bool is_segment = e->kind == EntityKind::segment, of_side = is_side(reason.entities[0]);
   if (is_segment ? e->edges.size() != 1 || e->edges[0].ends != sorted_edge(e->ends[0], e->ends[1])
-                 : !std::ranges::all_of(e->points, [&](std::uint32_t p) { return named_->is_given(p); }))
+                 : !of_side && !std::ranges::all_of(e->points, [&](std::uint32_t p) { return named_->is_given(p); }))
     return fail(words_of<D>(reason.entities[0]) + " has points of its own");
   const auto ball = circumsphere<D>(corners_of(mesh_, reason.cell));
   const auto is_in = [&](const Ball<D>& own) {
@@ -333,7 +351,12 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   const auto p = [&](std::uint32_t i) { return named_->point(i); };
   bool encroached = is_segment && is_in(diametral_ball<D>(p(e->ends[0]), p(e->ends[1])));
   if constexpr (D == 3)
-    for (const auto& t : e->triangles) encroached = encroached || is_in(equatorial_ball(p(t[0]), p(t[1]), p(t[2])));
+    for (const auto& t : e->triangles) {
+      if (of_side && !is_subfacet(t)) continue;
+      encroached = encroached || is_in(equatorial_ball(p(t[0]), p(t[1]), p(t[2])));
+      for (std::size_t i = 0; of_side && i < 3; ++i)
+        encroached = encroached || is_in(diametral_ball<D>(p(t[i]), p(t[(i + 1) % 3])));
+    }
   return encroached || near(reason.cell, *e) || fail("its circumcentre is not beside " + words_of<D>(reason.entities[0]));
 }
 

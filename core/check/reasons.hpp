@@ -68,6 +68,8 @@ class Reasons {
   Verdict in_wedge(const PoorReason& reason, std::string& why);
   bool beside_kept(const PoorReason& reason, std::string& why);
   bool has_edge_on(const PoorReason& reason);
+  bool is_side(const GivenEntity& name) const;
+  bool is_subfacet(std::array<std::uint32_t, 3> corners);
   const EntityMeeting& meeting(const Pair& pair);
   bool near(std::uint32_t cell, const Entity& entity) const;
   bool meets_piece(std::uint32_t cell, const Entity& entity) const;
@@ -78,9 +80,10 @@ class Reasons {
   NamedEntities<D>* named_;
   std::vector<std::uint32_t> by_cell_;  ///< indices of reasons, sorted by cell
   std::map<std::array<const Entity*, 2>, EntityMeeting> meetings_;
-  std::vector<typename Entity::AtEdge> subfacets_;  ///< 3D: by their edges, sorted; made when they are asked for
-  std::vector<detail::PlanarEdge> subsegments_;     ///< 3D: likewise
-  double largest_ = 0;                              ///< coordinate of the mesh
+  std::vector<typename Entity::AtEdge> subfacets_;              ///< 3D: by their edges, sorted; made when they are asked for
+  std::vector<detail::PlanarEdge> subsegments_;                 ///< 3D: likewise
+  std::vector<std::array<std::uint32_t, 3>> sorted_subfacets_;  ///< by corners; made when they are asked for
+  double largest_ = 0;                                          ///< coordinate of the mesh
 };
 
 }  // namespace pgdr::checking

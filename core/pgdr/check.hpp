@@ -106,6 +106,10 @@ struct CheckOptions {
   /// RefineOptions::kept_markers. DEFAULT: none, everything was to be kept.
   std::vector<int> kept_markers;
 
+  /// 3D: markers of sides that correspond (periodic.hpp), whose subfacets are kept though they were not given: a reason
+  /// kept_boundary may name a facet with one of these. Whether they do correspond is for periodic_pairs() to say. DEFAULT: none.
+  std::vector<int> kept_sides;
+
   /// 3D: E, an absolute length: the mesh is of another surface, and certified to be within E of the given one, both ways, as is
   /// said at the head of this file. DEFAULT: none, it is of the given one. REQUIRES: above 0, finite; some hundred ulps of the
   /// largest coordinate at least, or rounding leaves pieces undecided, which are findings. Without `input` it has no effect. 2D:

@@ -3,8 +3,8 @@
 #include "pgdr/make_periodic.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "input/usable_plc.hpp"
@@ -16,9 +16,9 @@
 namespace pgdr {
 namespace {
 
+using detail::Cuts;
 using detail::SideChain;
 using detail::SideInput;
-using detail::SidePart;
 using Chain = SideChain<2>;
 
 class PeriodicMaker {
@@ -48,29 +48,34 @@ class PeriodicMaker {
 
  private:
   bool divide(const OutputMesh<2>& mesh) {
-    std::vector<std::vector<std::vector<SidePart>>> parts;
-    for (const Chain& chain : chains_) parts.push_back(parts_of_pieces(chain, mesh));
-    return detail::halve_pieces<2>(chains_, parts);
+    detail::PieceCuts cuts;
+    for (const Chain& chain : chains_) cuts.push_back(cuts_of_pieces(chain, mesh));
+    return detail::cut_pieces<2>(chains_, cuts);
   }
 
-  std::vector<std::vector<SidePart>> parts_of_pieces(const Chain& chain, const OutputMesh<2>& mesh) const {
-    std::vector<std::vector<SidePart>> parts(chain.pieces().size());
+  /// Vertices of the mesh on pieces, side by side.
+  std::vector<std::vector<Cuts>> cuts_of_pieces(const Chain& chain, const OutputMesh<2>& mesh) const {
+    std::vector<std::vector<Cuts>> cuts(chain.pieces().size());
     for (const auto& side : chain.sides()) {
       std::vector<detail::Box<2>> boxes;
       for (const auto& [a, b] : chain.pieces())
         boxes.push_back(detail::box_of_edge<2>(chain.point(side, a), chain.point(side, b), input_.reach));
       const detail::BoxTree<2> tree(boxes);
+      std::map<std::uint32_t, std::set<double>> cut;  // by piece
       for (const auto& s : mesh.subsegments) {
         if (s.marker != side.marker) continue;
         const Point2 &p = mesh.points[s.vertices[0]], &q = mesh.points[s.vertices[1]];
         tree.meeting(detail::box_of_edge<2>(p, q, 0), [&](std::uint32_t k) {
           const Point2 &a = chain.point(side, chain.pieces()[k][0]), &b = chain.point(side, chain.pieces()[k][1]);
           const auto t = detail::part_near<2>(p, a, b, input_.reach), u = detail::part_near<2>(q, a, b, input_.reach);
-          if (t && u && *t != *u) parts[k].push_back({std::min(*t, *u), std::max(*t, *u), std::sqrt(squared_distance(p, q))});
+          if (!t || !u || *t == *u) return;
+          if (*t > 0 && *t < 1) cut[k].insert(detail::place_of_cut<2>(p, a, b));
+          if (*u > 0 && *u < 1) cut[k].insert(detail::place_of_cut<2>(q, a, b));
         });
       }
+      for (const auto& [k, places] : cut) cuts[k].emplace_back(places.begin(), places.end());
     }
-    return parts;
+    return cuts;
   }
 
   bool is_periodic(int marker) const {

@@ -139,16 +139,20 @@ template <int D>
 std::vector<PeriodicSides<D>> make_chains(const SideInput<D>& input, NearPoints<D>& points,
                                           std::span<const PeriodicSides<D>> sides, std::vector<SideChain<D>>& chains);
 
-/// A part of a piece as a mesh has it, from 0 to 1 along it.
-struct SidePart {
-  double from, to, length;
-};
+/// Where a mesh cuts a piece: parts of it, between 0 and 1, ascending.
+using Cuts = std::vector<double>;
+/// Of each piece of each chain the cuts of all meshes that have any.
+using PieceCuts = std::vector<std::vector<std::vector<Cuts>>>;
 
-/// Halves the pieces that meshes have divided, and their halves, until no part of a mesh there is shorter. Pieces of several
-/// chains that have an edge in common, and those that have one in common with these, are halved alike.
-/// @param parts  of each piece of each chain
-/// @returns whether there was anything to halve
+/// How far p, which lies on it within rounding, is along an edge: simple fractions exactly, so that what is in the middle stays
+/// so.
 template <int D>
-bool halve_pieces(std::vector<SideChain<D>>& chains, const std::vector<std::vector<std::vector<SidePart>>>& parts);
+double place_of_cut(const Point<D>& p, const Point<D>& a, const Point<D>& b);
+
+/// Cuts pieces where meshes have cut them. Pieces of several chains that have an edge in common, and those that have one in
+/// common with these, are cut alike.
+/// @returns whether there was anything to cut
+template <int D>
+bool cut_pieces(std::vector<SideChain<D>>& chains, const PieceCuts& cuts);
 
 }  // namespace pgdr::detail

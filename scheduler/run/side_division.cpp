@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // An orbit is all pieces, of all chains, that hang together by edges which they have in common on some side: what the motions
-// make of one edge, in any order. It is halved as its first piece is, on the first side of that, and what comes is carried from
-// piece to piece. Where motions turn an edge round onto itself, parts of meshes count both ways round; so halves do, too.
+// make of one edge, in any order. It is cut where one of the meshes has cut one of its edges, that with the most cuts: as a mesh
+// cuts its segments, in the middle or on shells about acute corners, so that neighbours which it has cut likewise do not cut each
+// other again. What comes is carried from piece to piece. Where motions turn an edge round onto itself it is cut in the middle,
+// so that its halves are pieces that are turned no more.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +24,7 @@ class Division {
   using Chain = SideChain<D>;
   using Piece = typename Chain::Piece;
 
-  Division(std::vector<Chain>& chains, const std::vector<std::vector<std::vector<SidePart>>>& parts)
-      : chains_(chains), parts_(parts) {
+  Division(std::vector<Chain>& chains, const PieceCuts& cuts) : chains_(chains), cuts_(cuts) {
     for (std::uint32_t c = 0; c < chains.size(); ++c)
       for (std::uint32_t k = 0; k < chains[c].pieces().size(); ++k) nodes_.push_back({.chain = c, .piece = k});
     for (std::uint32_t n = 0; n < nodes_.size(); ++n)
@@ -33,7 +34,7 @@ class Division {
   bool run() {
     bool any = false;
     for (std::uint32_t n = 0; n < nodes_.size(); ++n)
-      if (!nodes_[n].is_known) any = halve_orbit(n) || any;
+      if (!nodes_[n].is_known) any = cut_orbit(n) || any;
     std::vector<std::vector<Piece>> made(chains_.size());
     for (std::uint32_t n = 0; n < nodes_.size(); ++n) append_pieces(n, made[nodes_[n].chain]);
     for (std::size_t c = 0; c < chains_.size(); ++c) chains_[c].set_pieces(std::move(made[c]));
@@ -96,21 +97,40 @@ class Division {
     return members;
   }
 
-  void add_parts(std::uint32_t n, bool is_reversed, std::vector<SidePart>& parts) const {
-    for (const SidePart& part : parts_[nodes_[n].chain][nodes_[n].piece])
-      parts.push_back(is_reversed ? SidePart{1 - part.to, 1 - part.from, part.length} : part);
+  static Cuts turned_round(Cuts cuts) {
+    std::ranges::reverse(cuts);
+    for (double& t : cuts) t = 1 - t;
+    return cuts;
   }
 
-  bool halve_orbit(std::uint32_t first) {
+  /// Where meshes have cut the pieces of an orbit: the cuts of the one with the most, of several the first.
+  Cuts most_cuts(std::uint32_t first, const std::vector<Member>& members) const {
+    Cuts most;
+    const auto look_at = [&](std::uint32_t n) {
+      for (const Cuts& cuts : cuts_[nodes_[n].chain][nodes_[n].piece])
+        if (cuts.size() > most.size()) most = nodes_[n].is_reversed ? turned_round(cuts) : cuts;
+    };
+    look_at(first);
+    for (const Member& m : members) look_at(m.here.node);
+    return most;
+  }
+
+  void cut(std::uint32_t n, const Cuts& cuts) {
+    const auto& piece = chain(n).pieces()[nodes_[n].piece];
+    const Point<D> a = chain(n).point(chain(n).first(), piece[0]), b = chain(n).point(chain(n).first(), piece[1]);
+    for (const double t : cuts) {
+      Point<D> p;
+      for (int j = 0; j < D; ++j) p[j] = (1 - t) * a[j] + t * b[j];
+      nodes_[n].middles.push_back({t, chain(n).add_place(p)});
+    }
+  }
+
+  bool cut_orbit(std::uint32_t first) {
     bool turned = false;
     const std::vector<Member> members = find_orbit(first, turned);
-    std::vector<SidePart> parts;
-    for (const bool round : {false, true}) {
-      if (round && !turned) break;
-      add_parts(first, round, parts);
-      for (const Member& m : members) add_parts(m.here.node, nodes_[m.here.node].is_reversed != round, parts);
-    }
-    halve(first, 0, 1, parts);
+    Cuts cuts = most_cuts(first, members);
+    if (turned && !cuts.empty()) cuts = {0.5};
+    cut(first, cuts);
     for (const auto& [from, here] : members)
       for (const auto& [at, place] : nodes_[from.node].middles) {
         const std::uint32_t point = chain(from.node).sides()[from.side].at[place];
@@ -118,24 +138,6 @@ class Division {
         nodes_[here.node].middles.push_back({is_along ? at : 1 - at, chain(here.node).add_place_of(here.side, point)});
       }
     return !nodes_[first].middles.empty();
-  }
-
-  /// Halves the part of a piece from one number to another until no part of the mesh there is shorter.
-  void halve(std::uint32_t n, double from, double to, const std::vector<SidePart>& parts) {
-    constexpr double rounding = 1 + 0x1p-20;  // of what is as long, but for the ulps of its ends
-    const auto& [i, k] = chain(n).pieces()[nodes_[n].piece];
-    const Point<D> a = chain(n).point(chain(n).first(), i), b = chain(n).point(chain(n).first(), k);
-    const double length = (to - from) * std::sqrt(squared_distance(a, b)), slack = (to - from) * 0x1p-20;
-    const bool is_short = std::ranges::all_of(parts, [&](const SidePart& part) {
-      return part.to <= from + slack || part.from >= to - slack || length <= part.length * rounding;
-    });
-    if (is_short) return;
-    const double t = (from + to) / 2;
-    Point<D> middle;
-    for (int j = 0; j < D; ++j) middle[j] = (1 - t) * a[j] + t * b[j];
-    nodes_[n].middles.push_back({t, chain(n).add_place(middle)});
-    halve(n, from, t, parts);
-    halve(n, t, to, parts);
   }
 
   void append_pieces(std::uint32_t n, std::vector<Piece>& made) {
@@ -151,7 +153,7 @@ class Division {
   }
 
   std::vector<Chain>& chains_;
-  const std::vector<std::vector<std::vector<SidePart>>>& parts_;
+  const PieceCuts& cuts_;
   std::vector<Node> nodes_;
   std::map<Edge, std::vector<Use>> uses_;
 };
@@ -159,11 +161,11 @@ class Division {
 }  // namespace
 
 template <int D>
-bool halve_pieces(std::vector<SideChain<D>>& chains, const std::vector<std::vector<std::vector<SidePart>>>& parts) {
-  return Division<D>(chains, parts).run();
+bool cut_pieces(std::vector<SideChain<D>>& chains, const PieceCuts& cuts) {
+  return Division<D>(chains, cuts).run();
 }
 
-template bool halve_pieces<2>(std::vector<SideChain<2>>&, const std::vector<std::vector<std::vector<SidePart>>>&);
-template bool halve_pieces<3>(std::vector<SideChain<3>>&, const std::vector<std::vector<std::vector<SidePart>>>&);
+template bool cut_pieces<2>(std::vector<SideChain<2>>&, const PieceCuts&);
+template bool cut_pieces<3>(std::vector<SideChain<3>>&, const PieceCuts&);
 
 }  // namespace pgdr::detail

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "join/near_tests.hpp"
 #include "pgdr/error.hpp"
 #include "run/periodic_sides.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 
@@ -26,6 +28,13 @@ Box<D> box_of_edge(const Point<D>& a, const Point<D>& b, double width) {
   Box<D> box = Box<D>::around(a);
   box.add(b);
   return box.widened(width);
+}
+
+template <int D>
+double place_of_cut(const Point<D>& p, const Point<D>& a, const Point<D>& b) {
+  constexpr double simple = 0x1p20, rounding = 0x1p-48;
+  const double t = part_of_edge<D>(p, a, b), near = std::nearbyint(t * simple) / simple;
+  return std::fabs(t - near) <= rounding ? near : t;
 }
 
 SideInput<2> side_input(const Plc<2>& plc, const SideMarkers& markers) {
@@ -75,6 +84,8 @@ SideInput<3> side_input(const Domain<3>& domain, const SideMarkers& markers) {
 
 template std::optional<double> part_near<2>(const Point2&, const Point2&, const Point2&, double);
 template std::optional<double> part_near<3>(const Point3&, const Point3&, const Point3&, double);
+template double place_of_cut<2>(const Point2&, const Point2&, const Point2&);
+template double place_of_cut<3>(const Point3&, const Point3&, const Point3&);
 template Box<2> box_of_edge<2>(const Point2&, const Point2&, double);
 template Box<3> box_of_edge<3>(const Point3&, const Point3&, double);
 

@@ -8,7 +8,8 @@ import re
 import struct
 import unittest
 
-from test_command import BRACKET, Case
+import periodic_cells
+from test_command import Case
 
 
 def cell(shear, turn, pieces, holes):
@@ -122,7 +123,66 @@ class Periodic(Case):
                             ("4=2:1,0,0,0,0,1,0,0,0,0,1,0", "takes a motion of 6 numbers in 2D"),
                             ("4=2:1,0,1,0,2,0", "must keep lengths")]:
             self.assertIn(words, self.mesh(model, "--periodic", flag, expect=2).stderr)
-        self.assertIn("--periodic is for 2D", self.mesh(BRACKET, "--periodic", "1=2", expect=2).stderr)
+
+
+class PeriodicCells(Case):
+    """3D: cells of crystals, whose faces, edges and corners cut spheres."""
+    SIDES = "--periodic", "1=2", "--periodic", "3=4", "--periodic", "5=6"
+
+    def meshed(self, model, *flags):
+        done = self.mesh(model, *self.SIDES, *flags, "--report", self.report, expect=None)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        checked = self.pgdr("check", self.output, "--input", model, "--reasons", self.report, expect=done.returncode).stdout
+        self.assertEqual(checked.count("\nperiodic "), 3)
+        return self.json()
+
+    def test_cells(self):
+        """Of 30 by hand (0 to 29) none has a poor cell."""
+        for seed in (0, 1, 2, 3, 7, 13):
+            model = self.file("cell.poly", periodic_cells.drawn(seed).poly())
+            report = self.meshed(model)
+            self.assertEqual(report["bounds"]["poor_left"], 0)
+            for pairs in report["periodic"]:
+                self.assertLess(pairs["largest_gap"], 1e-15)
+                self.assertGreater(pairs["walls"], 0)
+            for region in report["regions"]:
+                self.assertAlmostEqual(region["volume_meshed"], region["volume_given"], delta=1e-14)
+            self.mesh(model, "--report", self.report, expect=None)
+            self.assertLess(report["cells"], 1.5 * self.json()["cells"] + 100)
+
+    def test_sizes(self):
+        model = self.file("cell.poly", periodic_cells.drawn(2).poly())
+        report = self.meshed(model, "--size", "0.03+0.1*x")
+        self.assertTrue(report["bounds"]["size_met"])
+        for p in report["periodic"]:  # what is asked for at x = 0 is so at x = 1
+            self.assertGreater(len(p["points"]), 500)
+
+    def test_threads(self):
+        model = self.file("cell.poly", periodic_cells.drawn(1).poly())
+        meshes = set()
+        for threads in (1, 2, 8):
+            self.meshed(model, "--size", 0.1, "--threads", threads)
+            meshes.add(self.output.read_bytes())
+        self.assertEqual(len(meshes), 1)
+
+    def test_files(self):
+        model = self.file("cell.poly", periodic_cells.drawn(0).poly())
+        self.output = self.folder / "out.msh"
+        report = self.meshed(model)
+        data = self.output.read_bytes()
+        at = data.index(b"$Periodic\n") + len(b"$Periodic\n")
+        links, dimension, _, _, numbers = struct.unpack_from("<QiiiQ", data, at)
+        self.assertEqual((links, dimension, numbers), (3, 2, 16))
+        self.assertEqual(struct.unpack_from("<16d", data, at + 28), (1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1))
+        count, = struct.unpack_from("<Q", data, at + 28 + 128)
+        self.assertEqual(count, len(report["periodic"][0]["points"]))
+
+    def test_check_by_itself(self):
+        model = self.file("cell.poly", periodic_cells.drawn(1).poly())
+        self.mesh(model, expect=0)
+        self.assertIn("FAILED", self.pgdr("check", self.output, *self.SIDES, expect=6).stdout)
+        self.assertIn("--periodic takes a motion of 12 numbers in 3D",
+                      self.mesh(model, "--periodic", "1=2:1,0,1,0,1,0", expect=2).stderr)
 
 
 if __name__ == "__main__":

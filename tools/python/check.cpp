@@ -66,6 +66,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.not_delaunay_left = not_delaunay_left;
     options.keep_boundary = bounds.keep_boundary;
     options.kept_markers = bounds.kept_markers;
+    for (const PeriodicPairs& p : data.periodic) options.kept_sides.insert(options.kept_sides.end(), {p.from, p.to});
     options.surface_tolerance = length;
     options.feature_angle = feature_angle;
     report = check(data.mesh, options);

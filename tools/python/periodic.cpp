@@ -32,20 +32,25 @@ PeriodicSides<D> sides_of(const Sides& given) {
   return sides;
 }
 
-/// The input to mesh, its sides with their motions, whether the boundary must be kept, and how often it was meshed.
-py::tuple make(const Plc<2>& plc, const std::vector<Sides>& given, const RefineOptions<2>& bounds) {
-  std::vector<PeriodicSides<2>> sides;
-  for (const Sides& pair : given) sides.push_back(sides_of<2>(pair));
-  PeriodicInput<2> made;
+/// The input to mesh, its sides with their motions, whether the boundary must be kept, with which markers, and what tells the
+/// mesh in terms of the given input.
+template <int D>
+py::tuple make(const Plc<D>& plc, const std::vector<Sides>& given, const RefineOptions<D>& bounds) {
+  std::vector<PeriodicSides<D>> sides;
+  for (const Sides& pair : given) sides.push_back(sides_of<D>(pair));
+  PeriodicInput<D> made;
   run_watched([&](const std::stop_token& stop) {
-    RefineOptions<2> options = bounds;
+    RefineOptions<D> options = bounds;
     options.stop = stop;
     made = make_periodic(plc, sides, options);
   });
   std::vector<Sides> found;
-  for (const PeriodicSides<2>& s : made.sides)
-    found.emplace_back(s.from, s.to, std::vector<double>(s.motion->begin(), s.motion->end()));
-  return py::make_tuple(std::make_shared<Plc<2>>(std::move(made.plc)), found, made.keep_boundary, made.rounds);
+  for (const PeriodicSides<D>& s : made.sides)
+    found.emplace_back(s.from, s.to, s.motion ? std::vector<double>(s.motion->begin(), s.motion->end()) : std::vector<double>());
+  auto other = std::make_shared<Plc<D>>(made.plc);
+  const bool keeps = made.keep_boundary;
+  std::vector<int> kept = made.kept_markers;
+  return py::make_tuple(other, found, keeps, kept, std::make_shared<PeriodicInput<D>>(std::move(made)));
 }
 
 /// The pairs of a mesh, which has them from then on: markers, motion, (n, 2) vertices, walls, exact ones, the largest gap.
@@ -61,7 +66,12 @@ py::tuple pair(MeshData<D>& data, const Sides& given, double tolerance) {
 }  // namespace
 
 void bind_periodic(py::module_& module) {
-  module.def("make_periodic", &make);
+  py::class_<PeriodicInput<2>, std::shared_ptr<PeriodicInput<2>>>(module, "PeriodicInput2");
+  py::class_<PeriodicInput<3>, std::shared_ptr<PeriodicInput<3>>>(module, "PeriodicInput3")
+      .def("name_as_given",
+           [](const PeriodicInput<3>& made, MeshData<3>& data) { name_as_given(made, data.mesh, data.reasons); });
+  module.def("make_periodic", &make<2>);
+  module.def("make_periodic", &make<3>);
   module.def("pair2", &pair<2>);
   module.def("pair3", &pair<3>);
 }

@@ -123,8 +123,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         2D: segments are split until every triangle is Delaunay across them, too, and its circumcentre in the domain: `Mesh.voronoi`
         has the cells of such a mesh. What lies beyond a void does not count. With radius_edge=inf and no size, this alone adds points.
     periodic : list of (from, to) or (from, to, motion)
-        2D: the sides with these markers correspond vertex by vertex (`Mesh.periodic`), by the translation between them, or by a rigid
-        motion, (2, 3) numbers.
+        The sides with these markers of segments (3D: facets) correspond vertex by vertex (`Mesh.periodic`), by the translation between
+        them, or by a rigid motion, (2, 3) numbers (3D: (3, 4)).
     tolerance : float, optional
         Instead of that of the input: what lies within this distance meets.
     surface_tolerance : float or str, optional
@@ -220,14 +220,13 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         options.set_schedule(_arguments.word("schedule", schedule, ("reproducible", "uniform", "greedy")))
     asked = _select(options, selector)
     sides, given_points = sides_of(periodic, dimension), len(plc.points)
+    periodic_input: Union[None, _pgdr.PeriodicInput2, _pgdr.PeriodicInput3] = None
     if sides:
-        if not isinstance(plc._core, _pgdr.Plc2):
-            raise usage("periodic sides are for 2D")
         with WORK:
-            core, sides, keeps, _ = _pgdr.make_periodic(plc._core, sides, options)
+            core, sides, keeps, kept_markers, periodic_input = _pgdr.make_periodic(plc._core, sides, options)
         plc, options.keep_boundary = Plc._of(core), options.keep_boundary or keeps
         if keeps:
-            options.kept_markers = []
+            options.kept_markers = kept_markers
     try:
         made = _run(plc, options, bounds, progress, stop)
     except DiagnosedError as error:
@@ -238,6 +237,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         made._facts["surface"] = surface
     if sides:
         made._facts["given_points"] = given_points
+        if isinstance(periodic_input, _pgdr.PeriodicInput3):
+            periodic_input.name_as_given(made._core)
         if made.stop == "finished":
             made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
     if kept:
