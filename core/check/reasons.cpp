@@ -374,16 +374,26 @@ const EntityMeeting& Reasons<D>::meeting(const Pair& pair) {
   EntityMeeting& meeting = made.first->second;
   if (!made.second) return meeting;
   meeting = meeting_of<D>(*named_, *pair.a, *pair.b, angle_bounds());
-  // Where both are in one plane each, there is no doubt about what is one.
-  if (pair.a->is_one_plane && pair.b->is_one_plane && are_one(*pair.a, *pair.b)) return meeting;
   const auto try_parts = [&](const Entity& a, const Entity& b) {
     const bool facets = a.kind == EntityKind::facet && b.kind == EntityKind::facet;
     if (!facets || !named_->are_in_one_plane(a, b)) meeting.join(meeting_of<D>(*named_, a, b, angle_bounds()));
   };
-  for (const Entity& a : pair.a->alone) try_parts(a, *pair.b);
-  for (const Entity& b : pair.b->alone) try_parts(*pair.a, b);
-  for (const Entity& a : pair.a->alone)
-    for (const Entity& b : pair.b->alone) try_parts(a, b);
+  using Parts = std::vector<const Entity*>;
+  const auto try_all = [&](const Parts& of_a, const Parts& of_b) {
+    for (const Entity* a : of_a) try_parts(*a, *pair.b);
+    for (const Entity* b : of_b) try_parts(*pair.a, *b);
+    for (const Entity* a : of_a)
+      for (const Entity* b : of_b) try_parts(*a, *b);
+  };
+  try_all(pair.a->faces, pair.b->faces);
+  // Where both are in one plane each, and no subsegment divides them, there is no doubt about what is one.
+  if (pair.a->is_one_plane && pair.b->is_one_plane && are_one(*pair.a, *pair.b)) return meeting;
+  const auto parts_of = [](const Entity& e) {
+    Parts parts;
+    for (const Entity& part : e.alone) parts.push_back(&part);
+    return parts;
+  };
+  try_all(parts_of(*pair.a), parts_of(*pair.b));
   return meeting;
 }
 

@@ -168,6 +168,7 @@ void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
       out.off = std::max(out.off, own_->thickness[own_->sets.find(facet)]);
       return;
     }
+    out.faces = faces_of(members_alone(first, last));
     out.is_one_plane = is_in_one_plane(out);
     if (out.triangles.empty() || (out.is_one_plane && !out.is_loose)) return;
     const std::vector<std::uint32_t> all = members_alone(first, last);
@@ -303,19 +304,61 @@ void NamedEntities<D>::join_flat_parts() {
         edges.push_back({sorted_edge(v[(i + 1) % 3], v[(i + 2) % 3]), s});
       }
     std::sort(edges.begin(), edges.end());
-    std::vector<detail::PlanarEdge> subsegments;  // where others met that are not in the mesh two may be left, in one plane
-    for (const auto& s : mesh_.subsegments) subsegments.push_back(sorted_edge(s.vertices[0], s.vertices[1]));
-    std::ranges::sort(subsegments);
+    join_faces(edges);
     for (std::size_t i = 0, j; i < edges.size(); i = j) {
       for (j = i + 1; j < edges.size() && edges[j].ends == edges[i].ends;) ++j;
       const std::uint32_t s = edges[i].apex, t = edges[j - 1].apex;
-      if (j - i != 2 || marker(s) != marker(t) || std::ranges::binary_search(subsegments, edges[i].ends)) continue;
+      if (j - i != 2 || marker(s) != marker(t)) continue;
       const auto of_s = corners(s), of_t = corners(t);
       if (is_even(of_s, of_t, input_.reach()) && is_even(of_t, of_s, input_.reach())) flat_->unite(count + s, count + t);
     }
     for (std::uint32_t i = 0; i < count + mesh_.subfacets.size(); ++i) by_flat_.emplace_back(flat_->find(i), i);
     std::sort(by_flat_.begin(), by_flat_.end());
   }
+}
+
+/// @param edges  of subfacets, with these in place of the apices, sorted
+template <int D>
+void NamedEntities<D>::join_faces(std::span<const typename NamedEntity<D>::AtEdge> edges) {
+  std::vector<detail::PlanarEdge> subsegments;
+  for (const auto& s : mesh_.subsegments) subsegments.push_back(sorted_edge(s.vertices[0], s.vertices[1]));
+  std::ranges::sort(subsegments);
+  detail::DisjointSets sets(mesh_.subfacets.size());
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].ends == edges[i - 1].ends && !std::ranges::binary_search(subsegments, edges[i].ends))
+      sets.unite(edges[i - 1].apex, edges[i].apex);
+  for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s) face_of_.push_back(sets.find(s));
+  for (std::uint32_t s = 0; s < mesh_.subfacets.size(); ++s) by_face_.emplace_back(face_of_[s], s);
+  std::ranges::sort(by_face_);
+  off_of_face_.resize(mesh_.subfacets.size(), 0);
+  for (const OnGiven& on : match_.on_given) {
+    double& off = off_of_face_[face_of_[on.wall]];
+    off = std::max(off, match_.reach[on.given]);
+  }
+}
+
+/// Those with one of these members, each made once.
+template <int D>
+std::vector<const NamedEntity<D>*> NamedEntities<D>::faces_of(std::span<const std::uint32_t> members) {
+  const auto count = static_cast<std::uint32_t>(input_.triangles().size());
+  std::vector<std::uint32_t> faces;
+  for (const std::uint32_t member : members)
+    if (member >= count) faces.push_back(face_of_[member - count]);
+  detail::make_set(faces);
+  std::vector<const NamedEntity<D>*> out;
+  for (const std::uint32_t face : faces) {
+    const auto [at, fresh] = faces_.try_emplace(face);
+    out.push_back(&at->second);
+    if (!fresh) continue;
+    std::vector<std::uint32_t> subfacets;
+    using Row = std::pair<std::uint32_t, std::uint32_t>;
+    for (const auto& row : detail::equal_rows(std::span<const Row>(by_face_), face, &Row::first))
+      subfacets.push_back(count + row.second);
+    at->second.parts = {static_cast<std::uint32_t>(by_flat_.size()) + count + face};  // of no set
+    at->second.off = off_of_face_[face];
+    fill_facet(subfacets, at->second);
+  }
+  return out;
 }
 
 template <int D>

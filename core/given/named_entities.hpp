@@ -43,6 +43,9 @@ struct NamedEntity {
   /// without. Needles may lie in the planes on both of their sides, so that nothing says which of these are one with it; and
   /// where a facet is loose, the corners of what was given are known all the same.
   std::vector<NamedEntity> alone;
+  /// Of a facet: what subsegments divide it into. In one plane, too, that is as many facets for whoever keeps these segments,
+  /// where others that met at them are not in the mesh, or where the tolerance may have joined two and has not.
+  std::vector<const NamedEntity*> faces;
   double off = 0;         ///< how far points of a facet, that were not given, may be off it
   bool is_loose = false;  ///< so may be those that were given: they do not lie in one plane, or were moved
 
@@ -95,6 +98,8 @@ class NamedEntities {
   bool lies_on(std::uint32_t subfacet, std::uint32_t given) const;
   std::vector<std::uint32_t> members_alone(std::uint32_t first, std::uint32_t last) const;
   void join_flat_parts();
+  void join_faces(std::span<const typename NamedEntity<D>::AtEdge> edges);
+  std::vector<const NamedEntity<D>*> faces_of(std::span<const std::uint32_t> members);
   void join_own_parts();
   void add_triangle(const std::array<std::uint32_t, 3>& triangle, NamedEntity<D>& out) const;
 
@@ -111,6 +116,10 @@ class NamedEntities {
   std::optional<OwnFacets> own_;
   std::optional<detail::DisjointSets> flat_;                      ///< of given triangles, then of subfacets
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_flat_;  ///< set, member
+  std::vector<std::uint32_t> face_of_;                            ///< of subfacets
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_face_;  ///< face, subfacet
+  std::vector<double> off_of_face_;                               ///< how far its points may be off what was given
+  std::map<std::uint32_t, NamedEntity<D>> faces_;
 };
 
 }  // namespace pgdr::checking
