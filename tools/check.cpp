@@ -156,6 +156,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = file.read_mesh<D>();
+  if (!a.quiet) print_warnings(file.warnings());
   InputArguments reading = a.reading;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;
   reading.region_areas = reading.region_areas || reported.region_areas;

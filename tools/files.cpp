@@ -69,6 +69,8 @@ void require_format(const MeshArguments& a) {
   if ((a.neighbors || a.edges || a.first_index) && !has_extension(a.output, {".node", ".ele"}))
     refuse("--neighbors, --edges and --first-index are for .node and .ele");
   if (a.leaves && !has_extension(a.output, {".vtu", ".pvtu"})) refuse("--leaves is for .vtu and .pvtu");
+  if (a.order == 2 && (!has_extension(a.output, {".msh", ".vtu", ".inp"}) || !a.periodic.empty()))
+    refuse("--order 2 is for .msh, .vtu and .inp, without --periodic");
   if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
 }
 
@@ -80,6 +82,7 @@ WriteOptions write_options(const MeshArguments& a, std::uint32_t first_index_of_
     options.first_index = first_index_of_input;
   options.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
   options.edges = a.edges;
+  options.order = a.order;
   options.neighbors = a.neighbors;
   return options;
 }

@@ -104,6 +104,12 @@ std::string Inputs::words() const {
   return words;
 }
 
+std::vector<Diagnostic> Inputs::warnings() const {
+  std::vector<Diagnostic> all;
+  for (const InputFile& file : files_) all.insert(all.end(), file.warnings().begin(), file.warnings().end());
+  return all;
+}
+
 Json Inputs::json() const {
   if (files_.size() == 1) return files_.front().name().string();
   std::vector<Json> names;

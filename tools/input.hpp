@@ -32,6 +32,7 @@ class Inputs {
 
   std::string words() const;                    ///< their names, with commas
   Json json() const;                            ///< the name, or an array of several
+  std::vector<Diagnostic> warnings() const;     ///< of what was read last, file by file
   InputFile& only() { return files_.front(); }  ///< @pre there is one
 
  private:

@@ -187,7 +187,8 @@ class MeshRun {
       fields_ = old_->transferred(a_, result_.mesh, result_.warnings);
     }
     result_.repairs.insert(result_.repairs.begin(), repairs_.begin(), repairs_.end());
-    const std::vector<Diagnostic> unfit = unfit_names(plc_.names, a_.output);
+    const std::vector<Diagnostic> left_out = input_.warnings(), unfit = unfit_names(plc_.names, a_.output);
+    result_.warnings.insert(result_.warnings.begin(), left_out.begin(), left_out.end());
     result_.warnings.insert(result_.warnings.end(), unfit.begin(), unfit.end());
     if (bodies_) result_.warnings.insert(result_.warnings.begin(), bodies_->warnings.begin(), bodies_->warnings.end());
     if (const auto closed = warning_of_openings(repairs_)) result_.warnings.insert(result_.warnings.begin(), *closed);

@@ -148,6 +148,11 @@ void add_output(CLI::App& app, MeshArguments& a) {
   app.add_option("--first-index", a.first_index, ".node, .ele: count from 0 or 1 (default: as a .poly, .smesh or .node input; 1)")
       ->type_name("N")
       ->check(whole_number(0, 1));
+  app.add_option(
+         "--order", a.order,
+         "2: .msh, .vtu and .inp of second order, with a node in the middle of each edge, which stays straight (default: 1)")
+      ->type_name("1|2")
+      ->check(whole_number(1, 2));
   app.add_flag("--leaves", a.leaves, ".vtu: say of each cell which leaf of the tree it was refined in");
 }
 

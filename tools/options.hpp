@@ -68,6 +68,7 @@ struct MeshArguments {
   std::string output;
   std::optional<int> first_index;                         ///< of .node and .ele; none: as in the input, or 1
   std::optional<std::uint64_t> pieces;                    ///< of a .pvtu; none: one
+  int order = 1;                                          ///< of the mesh that is written, 1 or 2
   bool edges = false, neighbors = false, leaves = false;  ///< what is written beside the mesh
   BoundArguments bounds;
   InputArguments reading;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/write/mid_sides.hpp"
 #include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/output_mesh.hpp"
@@ -20,6 +21,6 @@ inline constexpr std::string_view own_point_data[] = {"marker", "attributes", "G
 
 template <int D>
 void write_vtu_with_fields(const OutputMesh<D>& mesh, const MeshFields& fields, const std::vector<PeriodicPairs>& periodic,
-                           FileOutput& out);
+                           const MidSides<D>* middles, FileOutput& out);
 
 }  // namespace pgdr::detail

@@ -32,6 +32,20 @@ void require_fields(const OutputMesh<D>& mesh, const MeshFields& fields, const P
   }
 }
 
+/// Values of points in the middles of edges, too: means of the ends, of whole numbers that of the first.
+template <int D>
+MeshFields with_middles(MeshFields fields, const detail::MidSides<D>& middles) {
+  for (MeshField& field : fields) {
+    if (!field.of_points) continue;
+    for (const auto& [a, b] : middles.edges())
+      for (std::size_t k = 0; k < field.components; ++k) {
+        const double first = field.values[a * field.components + k], second = field.values[b * field.components + k];
+        field.values.push_back(field.is_integer ? first : first / 2 + second / 2);
+      }
+  }
+  return fields;
+}
+
 }  // namespace
 
 bool has_room_for_fields(const Path& file) { return detail::lower_extension(file) == ".vtu"; }
@@ -61,8 +75,12 @@ void write_mesh(const OutputMesh<D>& mesh, const MeshFields& fields, const Path&
   require_fields(mesh, fields, file);
   if (fields.empty()) return write_mesh(mesh, file, options);
   if (!has_room_for_fields(file)) refuse(file, "fields are written to .vtu");
+  detail::require_order(file, options);
+  const detail::OfOrder<D> of_order(mesh, options);
+  const detail::MidSides<D>* const middles = of_order.middles();
   detail::FileOutput out(file);
-  detail::write_vtu_with_fields<D>(mesh, fields, options.periodic, out);
+  detail::write_vtu_with_fields<D>(of_order.mesh(), middles ? with_middles<D>(fields, *middles) : fields, options.periodic,
+                                   middles, out);
   out.commit();
 }
 

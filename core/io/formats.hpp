@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "io/read/file_mesh.hpp"
+#include "io/write/mid_sides.hpp"
 #include "paths/file_input.hpp"
 #include "paths/file_output.hpp"
 #include "paths/file_slices.hpp"
@@ -55,16 +56,20 @@ struct Want {
 FileMesh read_medit(std::string_view text, const std::filesystem::path& file, Want want);
 FileMesh read_msh(std::string_view text, const std::filesystem::path& file, Want want);
 
+/// @param left_out  how many nodes of cells of second order, which are no corners, the file has
 template <int D>
-OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file);
+OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file, std::size_t& left_out);
 /// The point data and cell data that read_vtu() has no place for.
 std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesystem::path& file);
 template <int D>
 void write_medit(const OutputMesh<D>& mesh, FileOutput& out);
+/// @param middles  of second order: the mesh has these nodes, too; null: of first order
 template <int D>
-void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out);
+void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, const MidSides<D>* middles,
+               FileOutput& out);
 template <int D>
-void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out);
+void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, const MidSides<D>* middles,
+               FileOutput& out);
 /// The file of a piece alone, with the numbers of its points and cells in the whole mesh.
 template <int D>
 void write_vtu_of_piece(const MeshPiece<D>& piece, FileOutput& out);
@@ -110,7 +115,7 @@ std::vector<std::string> foam_files(const std::filesystem::path& folder);
 template <int D>
 void write_foam(const OutputMesh<D>& mesh, const std::filesystem::path& folder);
 template <int D>
-void write_abaqus(const OutputMesh<D>& mesh, FileOutput& out);
+void write_abaqus(const OutputMesh<D>& mesh, const MidSides<D>* middles, FileOutput& out);
 template <int D>
 void write_mfem(const OutputMesh<D>& mesh, FileOutput& out);
 template <int D>
@@ -136,6 +141,31 @@ void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, 
 int node_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& beside);  ///< .node, .poly
 int vtu_dimension(std::string_view text, const std::filesystem::path& file);
 int pvtu_dimension(std::string_view text, const std::filesystem::path& file, FileTexts& beside);  ///< that of the first piece
+
+/// @throws UsageError bad_option: an order that the format does not have
+void require_order(const std::filesystem::path& file, const WriteOptions& options);
+
+/// A mesh as a file of the order of the options has it. It refers to the mesh that it was made of.
+template <int D>
+class OfOrder {
+ public:
+  OfOrder(const OutputMesh<D>& mesh, const WriteOptions& options) : mesh_(&mesh) {
+    if (options.order != 2) return;
+    middles_.emplace(mesh);
+    wide_ = middles_->with_nodes(mesh);
+    mesh_ = &wide_;
+  }
+  OfOrder(const OfOrder&) = delete;
+  OfOrder& operator=(const OfOrder&) = delete;
+
+  const OutputMesh<D>& mesh() const { return *mesh_; }
+  const MidSides<D>* middles() const { return middles_ ? &*middles_ : nullptr; }
+
+ private:
+  const OutputMesh<D>* mesh_;
+  OutputMesh<D> wide_;
+  std::optional<MidSides<D>> middles_;
+};
 
 /// In lower case, with its dot.
 std::string lower_extension(const std::filesystem::path& file);

@@ -86,10 +86,23 @@ OutputMesh<D> read_tetgen_files(const Path& file, detail::FileTexts& texts) {
   return detail::read_tetgen<D>({node, ele, optional_text(".face"), optional_text(".edge")}, file);
 }
 
+/// Says that cells of second order are read by their corners.
+void note_mid_sides(std::size_t left_out, const Path& file, detail::FileTexts& texts) {
+  if (left_out == 0) return;
+  texts.warnings().push_back({.code = Errc::unknown_format,
+                              .message = "cells of second order are read by their corners: " + std::to_string(left_out) +
+                                         " nodes in the middles of edges are left out",
+                              .file = file.string()});
+}
+
 template <int D>
 Plc<D> read_by_extension(std::string_view bytes, const Path& name, detail::FileTexts& beside, const ReadOptions& options) {
   const std::string extension = lower_extension(name);
-  if (const FileMeshReader read = file_mesh_reader(extension)) return detail::to_plc<D>(read(bytes, name, {Purpose::input, D}));
+  if (const FileMeshReader read = file_mesh_reader(extension)) {
+    detail::FileMesh mesh = read(bytes, name, {Purpose::input, D});
+    note_mid_sides(detail::drop_mid_sides(mesh), name, beside);
+    return detail::to_plc<D>(std::move(mesh));
+  }
   if (extension == ".poly") return detail::read_poly<D>(bytes, name, beside, options);
   using Reader = Plc<D> (*)(std::string_view, const Path&);
   Reader reader = nullptr;
@@ -120,8 +133,17 @@ Plc<D> read_plc_from(std::string_view bytes, const Path& name, FileTexts&& besid
 template <int D>
 OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name, FileTexts&& beside) {
   const std::string extension = lower_extension(name);
-  if (const FileMeshReader read = file_mesh_reader(extension)) return to_output_mesh<D>(read(bytes, name, {Purpose::mesh, D}));
-  if (extension == ".vtu") return read_vtu<D>(bytes, name);
+  if (const FileMeshReader read = file_mesh_reader(extension)) {
+    FileMesh mesh = read(bytes, name, {Purpose::mesh, D});
+    note_mid_sides(drop_mid_sides(mesh), name, beside);
+    return to_output_mesh<D>(std::move(mesh));
+  }
+  if (extension == ".vtu") {
+    std::size_t left_out = 0;
+    OutputMesh<D> mesh = read_vtu<D>(bytes, name, left_out);
+    note_mid_sides(left_out, name, beside);
+    return mesh;
+  }
   if (extension == ".pvtu") return read_pvtu<D>(bytes, name, beside);
   unknown_format(name, "a mesh (.vtu .pvtu .msh .mesh .node .ele)");
 }
@@ -154,6 +176,7 @@ InputFile::~InputFile() = default;
 /// A file of unknown format is not opened.
 template <int D>
 Plc<D> InputFile::read_plc(const ReadOptions& options) {
+  texts_->warnings().clear();
   return guarded(name_, [&] {
     const bool known = is_input_format<D>(lower_extension(name_));
     Plc<D> plc = detail::read_plc_from<D>(known ? texts_->of(name_) : std::string_view(), name_, std::move(*texts_), options);
@@ -164,6 +187,7 @@ Plc<D> InputFile::read_plc(const ReadOptions& options) {
 
 template <int D>
 OutputMesh<D> InputFile::read_mesh() {
+  texts_->warnings().clear();
   return guarded(name_, [&] {
     const bool several = is_tetgen_mesh(lower_extension(name_)), known = is_mesh_format(name_);
     OutputMesh<D> mesh = several ? read_tetgen_files<D>(name_, *texts_)
@@ -178,6 +202,8 @@ std::vector<MeshField> InputFile::read_fields() {
   if (lower_extension(name_) != ".vtu") return {};
   return guarded(name_, [&] { return detail::read_vtu_fields(texts_->of(name_), name_); });
 }
+
+const std::vector<Diagnostic>& InputFile::warnings() const { return texts_->warnings(); }
 
 int InputFile::dimension() {
   const std::string extension = lower_extension(name_);
@@ -246,6 +272,24 @@ std::vector<Diagnostic> unfit_names(const Names& names, const Path& file) {
   return warnings;
 }
 
+namespace detail {
+
+void require_order(const Path& file, const WriteOptions& options) {
+  const std::string extension = lower_extension(file);
+  const bool can = extension == ".msh" || extension == ".vtu" || extension == ".inp";
+  if (options.order == 1 || (options.order == 2 && can && options.periodic.empty())) return;
+  throw UsageError(Diagnostic{Errc::bad_option,
+                              options.order == 2 && can ? "sides that correspond have no nodes in the middles of edges: order 1"
+                              : options.order == 2      ? "meshes of second order are written to .msh, .vtu and .inp"
+                                                        : "the order of a mesh is 1 or 2",
+                              file.string(),
+                              0,
+                              {},
+                              {}});
+}
+
+}  // namespace detail
+
 std::vector<std::string> files_of_mesh(const Path& file, const WriteOptions& options) {
   if (detail::is_foam_mesh(file)) return detail::foam_files(file);
   const std::string own = lower_extension(file);
@@ -265,21 +309,25 @@ void write_mesh(const OutputMesh<D>& mesh, const Path& file, const WriteOptions&
   if (options.first_index > 1)
     throw UsageError(Diagnostic{Errc::bad_option, "points are numbered from 0 or 1", file.string(), 0, {}, {}});
   const std::string extension = lower_extension(file);
+  detail::require_order(file, options);
   if (extension == ".pvtu" && options.pieces > most_pieces)
     throw UsageError(Diagnostic{Errc::bad_option, "a mesh is written in up to 100,000 pieces", file.string(), 0, {}, {}});
   if (extension == ".pvtu") return guarded(file, [&] { detail::write_pvtu<D>(mesh, file, std::max(options.pieces, 1u)); });
   if (is_tetgen_mesh(extension)) return guarded(file, [&] { detail::write_tetgen<D>(mesh, file, options); });
   if (detail::is_foam_mesh(file)) return guarded(file, [&] { detail::write_foam<D>(mesh, file); });
-  if (extension == ".msh" || extension == ".vtu")
+  if (extension == ".msh" || extension == ".vtu" || extension == ".inp")
     return guarded(file, [&] {
       detail::FileOutput out(file);
-      extension == ".msh" ? detail::write_msh<D>(mesh, options.periodic, out) : detail::write_vtu<D>(mesh, options.periodic, out);
+      const detail::OfOrder<D> of_order(mesh, options);
+      const detail::MidSides<D>* const middles = of_order.middles();
+      if (extension == ".msh") detail::write_msh<D>(of_order.mesh(), options.periodic, middles, out);
+      if (extension == ".vtu") detail::write_vtu<D>(of_order.mesh(), options.periodic, middles, out);
+      if (extension == ".inp") detail::write_abaqus<D>(of_order.mesh(), middles, out);
       out.commit();
     });
   using Writer = void (*)(const OutputMesh<D>&, detail::FileOutput&);
   Writer writer = nullptr;
   if (extension == ".mesh") writer = detail::write_medit<D>;
-  if (extension == ".inp") writer = detail::write_abaqus<D>;
   if (extension == ".mfem") writer = detail::write_mfem<D>;
   if (extension == ".vtk") writer = detail::write_vtk<D>;
   if (writer == nullptr) unknown_format(file, "a mesh that can be written");

@@ -8,6 +8,9 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "pgdr/error.hpp"
 
 namespace pgdr::detail {
 
@@ -23,9 +26,12 @@ class FileTexts {
     return known != texts_.end() ? known->second : texts_.emplace(file.string(), read_whole_file(file)).first->second;
   }
   void clear() { texts_.clear(); }
+  /// What readers left out of these files.
+  std::vector<Diagnostic>& warnings() { return warnings_; }
 
  private:
   std::map<std::string, std::string> texts_;
+  std::vector<Diagnostic> warnings_;
 };
 
 }  // namespace pgdr::detail

@@ -32,6 +32,8 @@
 // - .mesh: references are markers and region attributes; attributes that are not integers are numbered, and comments
 //   "# region <n> = <value>" tell which is which. Labels that are all 0 read back as none. RequiredVertices lists the
 //   input points. Sections that a mesh has no place for are skipped.
+// - .msh, and .vtu of ours: tetrahedra, triangles and lines of second order are read by their corners; nodes that are no corners
+//   are left out, of which InputFile::warnings() says how many.
 // - .msh: the first physical group of an element is its label, and the group's name that of the label; groups of labels that are
 //   no positive integers, and have no name, are called "pgdr marker <m>" and "pgdr region <a>". Node and element tags are their
 //   places from 1 (cells come first).
@@ -108,6 +110,8 @@ class PGDR_API InputFile {
   /// Of a .vtu the arrays of point data and cell data that are not ours, points first, by name, without a "pgdr:" before it; of
   /// other formats none. Ask before `read_mesh`, after which the file is read again. @throws as read_mesh
   std::vector<MeshField> read_fields();
+  /// What the last read_plc() or read_mesh() left out: nodes of cells of second order, which are read by their corners.
+  const std::vector<Diagnostic>& warnings() const;
 
  private:
   std::filesystem::path name_;
@@ -123,6 +127,10 @@ struct WriteOptions {
   bool neighbors = false;    ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
   std::uint32_t pieces = 0;  ///< .pvtu: in so many files, up to most_pieces; 0: one, of a mesh on ranks one a rank
   std::vector<PeriodicPairs> periodic = {};  ///< .msh: a section of them; .vtu: point data "periodic_of" (periodic.hpp)
+  /// 2: .msh, .vtu and .inp of second order, with a node in the middle of each edge, which is straight: tet10, tri6, line3, in
+  /// the order of nodes of the format. Nodes are numbered behind all points, have no marker, and means of attributes and fields.
+  /// Not with `periodic`.
+  int order = 1;
 };
 
 /// The name of standard input, where it is read, and of standard output, where it is written, in the format with this extension.
@@ -149,8 +157,8 @@ OutputMesh<D> read_mesh(const std::filesystem::path& file);
 /// Replaces a file of that name when all is written, not before (.node and .ele: the files of both and of .face and
 /// .edge; a process that is killed in the middle leaves no .ele).
 /// @throws FileError cannot_write (nothing is left behind, an older file is as it was), InputError unknown_format,
-///   UsageError bad_option (a mesh in 2D to a folder polyMesh; a first index other than 0 and 1; too many pieces; neighbours of a
-///   mesh that has none, see neighbors_of_cells)
+///   UsageError bad_option (an order that the format does not have, or with `periodic`; a mesh in 2D to a folder polyMesh; a
+///   first index other than 0 and 1; too many pieces; neighbours of a mesh that has none, see neighbors_of_cells)
 template <int D>
 void write_mesh(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options = {});
 

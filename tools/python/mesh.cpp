@@ -147,9 +147,9 @@ using NameDicts = std::pair<std::map<double, std::string>, std::map<int, std::st
 
 template <int D>
 void write(const MeshData<D>& data, const std::string& file, std::uint32_t first_index, bool edges, bool neighbors,
-           std::uint32_t pieces) {
+           std::uint32_t pieces, int order) {
   const py::gil_scoped_release others_run;
-  write_mesh(data.mesh, file, {first_index, edges, neighbors, pieces, data.periodic});
+  write_mesh(data.mesh, file, {first_index, edges, neighbors, pieces, data.periodic, order});
 }
 
 template <int D>
@@ -223,8 +223,11 @@ void bind(py::module_& module) {
   module.def(with_dimension<D>("read_mesh").c_str(), [](const std::string& file) {
     const py::gil_scoped_release others_run;
     auto data = std::make_shared<Data>();
-    data->mesh = read_mesh<D>(file);
-    return data;
+    InputFile input(file);
+    data->mesh = input.read_mesh<D>();
+    std::vector<std::string> left_out;
+    for (const Diagnostic& d : input.warnings()) left_out.push_back(d.message);
+    return std::pair(data, left_out);
   });
 }
 

@@ -33,8 +33,9 @@ struct FileMesh {
   std::uint64_t dimension_line = 0;
 
   std::vector<Point3> points;
-  std::vector<int> point_markers;      ///< one a point
-  std::vector<std::uint8_t> required;  ///< one a point, or empty: points that are kept although no surface has them
+  std::vector<int> point_markers;       ///< one a point
+  std::vector<std::uint8_t> required;   ///< one a point, or empty: points that are kept although no surface has them
+  std::vector<std::uint8_t> mid_sides;  ///< one a point, or empty: elements of second order have it in the middle of an edge
   std::vector<std::uint32_t> point_lines;
   std::size_t input_points = 0;
   std::uint32_t first_index = 1;
@@ -58,6 +59,9 @@ struct FileMesh {
 int dimension_of(const FileMesh& mesh);
 /// Whether there are cells: of volume in 3D, triangles and quadrilaterals in 2D.
 bool has_cells(const FileMesh& mesh);
+
+/// Takes out the points that elements have in the middles of edges, and nothing has as a corner. @returns how many these are
+std::size_t drop_mid_sides(FileMesh& mesh);
 
 /// The surface and the edges. In 2D a quadrilateral is two triangles. Cells add what of their boundary, and of the faces between
 /// different labels, the surface lacks; a region seed for each label, in each part that facets enclose; a hole in each void; and

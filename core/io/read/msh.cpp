@@ -356,12 +356,12 @@ class MshReader {
       const MshType type = elements_.type_of(code);
       if (type.dimension != dimension) in_.fail(Errc::syntax, "a block of elements has not the dimension of its type");
       const double label = elements_.label_of_entity(dimension, entity);
-      std::array<std::uint64_t, 8> corners;
+      MshNodes nodes;
       for (std::uint64_t i = 0; i < in_block; ++i) {
         const std::uint64_t tag = size({"an element"});
         const Subject s{"element", static_cast<std::int64_t>(tag)};
-        for (std::size_t k = 0; k < type.corners; ++k) corners[k] = size(s);
-        elements_.add(type, tag, corners, label);
+        for (std::size_t k = 0; k < type.nodes; ++k) nodes[k] = size(s);
+        elements_.add(type, tag, nodes, label);
       }
     }
     if (read != n) in_.fail(Errc::syntax, "the blocks have fewer elements than the section");
@@ -392,9 +392,9 @@ class MshReader {
       const std::int32_t value = integer(s);
       if (i == 0) physical = value;
     }
-    std::array<std::uint64_t, 8> corners;
-    for (std::size_t k = 0; k < type.corners; ++k) corners[k] = static_cast<std::uint64_t>(std::int64_t{integer(s)});
-    elements_.add(type, static_cast<std::uint64_t>(tag), corners, elements_.label_of_physical(type.dimension, physical));
+    MshNodes nodes;
+    for (std::size_t k = 0; k < type.nodes; ++k) nodes[k] = static_cast<std::uint64_t>(std::int64_t{integer(s)});
+    elements_.add(type, static_cast<std::uint64_t>(tag), nodes, elements_.label_of_physical(type.dimension, physical));
   }
 
   LineScanner in_;

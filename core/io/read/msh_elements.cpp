@@ -12,24 +12,29 @@ namespace {
 
 constexpr std::int32_t line = 1, triangle = 2, quadrilateral = 3, tetrahedron = 4, point = 15;
 constexpr MshType types[] = {
-    {line, 1, 2, "Lines"},
-    {triangle, 2, 3, "Triangles"},
-    {quadrilateral, 2, 4, "Quadrilaterals"},
-    {tetrahedron, 3, 4, "Tetrahedra"},
-    {5, 3, 8, "Hexahedra"},
-    {6, 3, 6, "Prisms"},
-    {7, 3, 5, "Pyramids"},
-    {point, 0, 1, "Points"},
+    {line, line, 1, 2, 2, "Lines"},
+    {triangle, triangle, 2, 3, 3, "Triangles"},
+    {quadrilateral, quadrilateral, 2, 4, 4, "Quadrilaterals"},
+    {tetrahedron, tetrahedron, 3, 4, 4, "Tetrahedra"},
+    {5, 5, 3, 8, 8, "Hexahedra"},
+    {6, 6, 3, 6, 6, "Prisms"},
+    {7, 7, 3, 5, 5, "Pyramids"},
+    {point, point, 0, 1, 1, "Points"},
+    {8, line, 1, 2, 3, "Lines"},
+    {9, triangle, 2, 3, 6, "Triangles"},
+    {11, tetrahedron, 3, 4, 10, "Tetrahedra"},
 };
 
 }  // namespace
 
 MshType MshElements::type_of(std::int32_t code) const {
   for (const MshType& type : types) {
-    if (type.code == code) return type;
+    if (type.number == code) return type;
   }
-  in_.fail(Errc::unknown_format, "elements of type " + std::to_string(code) +
-                                     " are not read: only points, lines, triangles, quadrilaterals and cells of first order");
+  in_.fail(Errc::unknown_format,
+           "elements of type " + std::to_string(code) +
+               " are not read: only points, quadrilaterals and cells of first order, and lines, triangles and "
+               "tetrahedra of first and second");
 }
 
 double MshElements::label_of_physical(int dimension, int physical) const {
@@ -79,9 +84,11 @@ void MshElements::append(List<N>& list, std::uint64_t tag, const std::array<std:
   if (with_lines_) list.lines.push_back(static_cast<std::uint32_t>(in_.line()));
 }
 
-void MshElements::add(const MshType& type, std::uint64_t tag, const std::array<std::uint64_t, 8>& corners, double label) {
+void MshElements::add(const MshType& type, std::uint64_t tag, const MshNodes& tags, double label) {
   std::array<std::uint32_t, 8> nodes{};
-  for (std::size_t k = 0; k < type.corners; ++k) nodes[k] = node(corners[k], tag);
+  for (std::size_t k = 0; k < type.corners; ++k) nodes[k] = node(tags[k], tag);
+  if (type.nodes > type.corners) mid_sides_.resize(nodes_.size());
+  for (std::size_t k = type.corners; k < type.nodes; ++k) mid_sides_[node(tags[k], tag)] = 1;
   switch (type.code) {
     case point: return add_point(nodes[0], label);
     case line: return append(edges_, tag, nodes, label);
@@ -124,6 +131,7 @@ void MshElements::finish(FileMesh& mesh) {
   mesh.other_corners = std::move(other_corners_);
   mesh.point_markers = std::move(point_markers_);
   mesh.required = std::move(required_);
+  mesh.mid_sides = std::move(mid_sides_);
 }
 
 }  // namespace pgdr::detail

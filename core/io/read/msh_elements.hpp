@@ -15,13 +15,15 @@
 
 namespace pgdr::detail {
 
-/// A type of element that gmsh numbers `code`.
+/// A type of element that gmsh numbers `number`.
 struct MshType {
-  std::int32_t code;
+  std::int32_t number;
+  std::int32_t code;  ///< the number of the type with the corners alone
   int dimension;
-  std::size_t corners;
+  std::size_t corners, nodes;  ///< the corners come first
   std::string_view name;
 };
+using MshNodes = std::array<std::uint64_t, 10>;  ///< tags, of which a type uses the first
 
 /// `items` in another order: the i-th is that at order[i].
 template <class T>
@@ -38,7 +40,8 @@ class MshElements {
   MshElements(const LineScanner& in, bool lines) : in_(in), with_lines_(lines) {}
   void keep_lines(bool keep) { with_lines_ = keep; }
 
-  /// @throws unknown_format for elements of higher order and what is no element
+  /// @throws unknown_format for elements of higher order, but for lines, triangles and tetrahedra of the second, and what is no
+  ///   element
   MshType type_of(std::int32_t code) const;
 
   void name_physical(int dimension, int physical, double label) { names_[{dimension, physical}] = label; }
@@ -49,8 +52,8 @@ class MshElements {
 
   /// @param tags increasing
   void set_nodes(std::vector<std::uint64_t> tags);
-  /// @param corners tags of nodes, of which the type uses the first. @throws index_out_of_range
-  void add(const MshType& type, std::uint64_t tag, const std::array<std::uint64_t, 8>& corners, double label);
+  /// @throws index_out_of_range
+  void add(const MshType& type, std::uint64_t tag, const MshNodes& nodes, double label);
   /// Puts the elements into `mesh`, in the order of their tags.
   void finish(FileMesh& mesh);
 
@@ -82,7 +85,7 @@ class MshElements {
   std::uint64_t other_line_ = 0;
   std::vector<std::uint32_t> other_corners_;
   std::vector<int> point_markers_;
-  std::vector<std::uint8_t> required_;
+  std::vector<std::uint8_t> required_, mid_sides_;
 };
 
 }  // namespace pgdr::detail

@@ -12,7 +12,9 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
+#include "io/field_formats.hpp"
 #include "io/formats.hpp"
 #include "scan/clean_name.hpp"
 #include "scan/xml_tags.hpp"
@@ -168,8 +170,7 @@ class Arrays {
     }
     constexpr std::string_view tags = "</AppendedData></VTKFile>";
     if (found == tags) return;
-    const bool cut = tags.starts_with(found);
-    if (cut) fail_at(Errc::truncated, "the file ends too early", 0);
+    if (tags.starts_with(found)) fail_at(Errc::truncated, "the file ends too early", 0);
     fail_at(Errc::syntax, "bytes are left behind the data", 0);
   }
   [[noreturn]] void fail_at(Errc code, const std::string& message, std::uint64_t line) const {
@@ -197,9 +198,10 @@ class GridReader {
  public:
   explicit GridReader(Arrays& arrays) : arrays_(arrays) {}
 
-  OutputMesh<D> read() {
+  OutputMesh<D> read(std::size_t& left_out) {
     read_mesh();
     arrays_.check_end();
+    left_out = left_out_;
     return std::move(mesh_);
   }
 
@@ -208,13 +210,9 @@ class GridReader {
     const std::vector<std::uint64_t> of_whole = numbers("FieldData/piece", 7);
     auto& total = piece.total;
     read_mesh();
-    total.points = of_whole[0];
-    total.input_points = of_whole[1];
-    total.cells = of_whole[2];
-    total.subfacets = of_whole[3];
-    total.subsegments = of_whole[4];
-    piece.first_point = of_whole[5];
-    piece.own_points = of_whole[6];
+    std::uint64_t* const to[] = {&total.points,      &total.input_points, &total.cells,     &total.subfacets,
+                                 &total.subsegments, &piece.first_point,  &piece.own_points};
+    for (std::size_t k = 0; k < std::size(to); ++k) *to[k] = of_whole[k];
     total.attributes_per_point = arrays_.has(attributes) ? arrays_.components(attributes) : 0;
     total.point_markers = arrays_.has("PointData/marker");
     total.regions = arrays_.has("CellData/region");
@@ -238,6 +236,7 @@ class GridReader {
     read_connectivity();
     read_labels();
     read_names();
+    drop_mid_sides();
   }
 
   /// Pairs of a label and a dimension.
@@ -268,7 +267,7 @@ class GridReader {
       arrays_.fail(Errc::syntax, array, " has no pairs of a label and a dimension");
   }
 
-  /// All of an array of n numbers that count or name something.
+  /// Numbers that count or name something.
   std::vector<std::uint64_t> numbers(const std::string& name, std::size_t n) {
     const std::string_view bytes = arrays_.bytes(name, "Int64", n, sizeof(std::int64_t));
     std::vector<std::uint64_t> all(n);
@@ -338,12 +337,13 @@ class GridReader {
 
   /// Cells, subfacets, subsegments, in this order.
   void read_types() {
-    constexpr std::uint8_t line = 3, triangle = 5, tetrahedron = 10;
     const std::string_view types = arrays_.bytes("Cells/types", "UInt8", arrays_.cells(), 1);
+    is_second_order_ = !types.empty() && static_cast<std::uint8_t>(types[0]) > 20;  // VTK's numbers: linear, quadratic
+    const std::uint8_t line = is_second_order_ ? 21 : 3, triangle = is_second_order_ ? 22 : 5,
+                       tetrahedron = is_second_order_ ? 24 : 10;
     std::size_t at = 0;
     const auto run = [&](std::uint8_t type) {
-      const std::size_t begin = at;
-      while (at < types.size() && static_cast<std::uint8_t>(types[at]) == type) ++at;
+      const std::size_t begin = std::exchange(at, std::min(types.find_first_not_of(static_cast<char>(type), at), types.size()));
       return at - begin;
     };
     mesh_.cells.resize(run(D == 3 ? tetrahedron : triangle));
@@ -352,11 +352,16 @@ class GridReader {
     if (at != types.size()) arrays_.fail(Errc::syntax, "Cells/types", " has a type that does not belong where it stands");
   }
 
+  /// Of an element of so many corners.
+  std::size_t nodes(std::size_t corners) const { return is_second_order_ ? corners * (corners + 1) / 2 : corners; }
+
   void read_offsets() {
     const std::string_view offsets = arrays_.bytes("Cells/offsets", "Int64", arrays_.cells(), sizeof(std::int64_t));
     std::int64_t end = 0;
     for (std::size_t i = 0; i < arrays_.cells(); ++i) {
-      end += i < mesh_.cells.size() ? D + 1 : i < mesh_.cells.size() + mesh_.subfacets.size() ? 3 : 2;
+      end += static_cast<std::int64_t>(nodes(i < mesh_.cells.size()                            ? D + 1
+                                             : i < mesh_.cells.size() + mesh_.subfacets.size() ? 3
+                                                                                               : 2));
       if (little_endian<std::int64_t>(offsets, i) != end)
         arrays_.fail(Errc::syntax, "Cells/offsets", " does not agree with the types of the cells");
     }
@@ -364,19 +369,34 @@ class GridReader {
 
   void read_connectivity() {
     const std::string name = "Cells/connectivity";
-    const std::size_t corners = (D + 1) * mesh_.cells.size() + 3 * mesh_.subfacets.size() + 2 * mesh_.subsegments.size();
-    const std::string_view ids = arrays_.bytes(name, "Int64", corners, sizeof(std::int64_t));
+    const std::size_t count = nodes(D + 1) * mesh_.cells.size() + nodes(3) * mesh_.subfacets.size() +
+                              nodes(2) * mesh_.subsegments.size();
+    const std::string_view ids = arrays_.bytes(name, "Int64", count, sizeof(std::int64_t));
     std::size_t at = 0;
+    const auto next = [&] {
+      const auto id = static_cast<std::uint64_t>(little_endian<std::int64_t>(ids, at++));
+      if (id >= arrays_.points()) arrays_.fail(Errc::index_out_of_range, name, " refers to a point that is not there");
+      return static_cast<std::uint32_t>(id);
+    };
     const auto fill = [&](auto& vertices) {
-      for (std::uint32_t& v : vertices) {
-        const auto id = static_cast<std::uint64_t>(little_endian<std::int64_t>(ids, at++));
-        if (id >= arrays_.points()) arrays_.fail(Errc::index_out_of_range, name, " refers to a point that is not there");
-        v = static_cast<std::uint32_t>(id);
-      }
+      for (std::uint32_t& v : vertices) last_corner_ = std::max<std::size_t>(last_corner_, v = next());
+      for (std::size_t k = vertices.size(); k < nodes(vertices.size()); ++k)
+        first_mid_side_ = std::min<std::size_t>(first_mid_side_, next());
     };
     for (auto& c : mesh_.cells) fill(c);
     for (auto& c : mesh_.subfacets) fill(c.vertices);
     for (auto& c : mesh_.subsegments) fill(c.vertices);
+  }
+
+  /// Nodes in the middles of edges lie behind all corners in what we write; others' files are not read.
+  void drop_mid_sides() {
+    const std::size_t kept = std::min(first_mid_side_, arrays_.points());
+    left_out_ = arrays_.points() - kept;
+    if (left_out_ > 0 && (last_corner_ >= kept || mesh_.input_points > kept))
+      arrays_.fail(Errc::unknown_format, "Cells/connectivity", " has a node in the middle of an edge before a corner");
+    mesh_.point_attributes.resize(mesh_.points.empty() ? 0 : mesh_.point_attributes.size() / mesh_.points.size() * kept);
+    mesh_.points.resize(kept);
+    if (!mesh_.point_markers.empty()) mesh_.point_markers.resize(kept);
   }
 
   void read_labels() {
@@ -404,39 +424,48 @@ class GridReader {
   }
 
   static inline const std::string attributes = "PointData/attributes";
-
   Arrays& arrays_;
   OutputMesh<D> mesh_;
+  bool is_second_order_ = false;
+  std::size_t last_corner_ = 0, first_mid_side_ = ~std::size_t{0}, left_out_ = 0;
 };
 
-/// How many cells of the mesh there are: the first of the cells of the file, before its constraints.
-std::size_t count_cells(Arrays& arrays) {
-  constexpr char triangle = 5, tetrahedron = 10;
-  const char kind = read_dimension(arrays) == 3 ? tetrahedron : triangle;
+template <int D>
+std::pair<std::size_t, std::size_t> rows_in(Arrays& arrays) {
+  std::size_t left_out = 0;
+  const OutputMesh<D> mesh = GridReader<D>(arrays).read(left_out);
+  return {mesh.points.size(), mesh.cells.size()};
+}
+
+/// How many points and cells of the mesh there are: the first of those of the file, before nodes in the middles of edges, and
+/// before its constraints.
+std::pair<std::size_t, std::size_t> count_rows(Arrays& arrays) {
+  const bool is_spatial = read_dimension(arrays) == 3;
+  const char kind = is_spatial ? 10 : 5;
   const std::string_view types = arrays.bytes("Cells/types", "UInt8", arrays.cells(), 1);
-  return std::min(types.find_first_not_of(kind), types.size());
+  if (!types.empty() && types[0] > 20) return is_spatial ? rows_in<3>(arrays) : rows_in<2>(arrays);
+  return {arrays.points(), std::min(types.find_first_not_of(kind), types.size())};
 }
 
 }  // namespace
 
 std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesystem::path& file) {
-  const std::string own[] = {"PointData/marker", "PointData/attributes", "PointData/" + std::string(point_ids), "CellData/marker",
-                             "CellData/region",  "CellData/leaf",        "CellData/" + std::string(cell_ids)};
   const std::string name = file.string();
   Arrays arrays(text, name);
-  const std::size_t cells = count_cells(arrays);
+  const auto [points, cells] = count_rows(arrays);
   std::vector<MeshField> fields;
   for (const std::string_view section : {"PointData/", "CellData/"})
     for (const std::string& array : arrays.names_in(section)) {
-      if (std::find(std::begin(own), std::end(own), array) != std::end(own)) continue;
       const bool of_points = section == "PointData/";
+      std::string_view name_there = std::string_view(array).substr(section.size());
+      if (of_points ? std::ranges::count(own_point_data, name_there) > 0 : std::ranges::count(own_cell_data, name_there) > 0)
+        continue;
       constexpr std::uint64_t most_components = 1024;  // no count of the file overflows
       if (const std::uint64_t n = arrays.components(array); n == 0 || n > most_components)
         arrays.fail(Errc::count_too_large, array, " has " + std::to_string(n) + " components");
-      std::string_view name_there = std::string_view(array).substr(section.size());
       if (name_there.starts_with(field_data_escape)) name_there.remove_prefix(field_data_escape.size());
       fields.push_back({std::string(name_there), of_points, static_cast<std::size_t>(arrays.components(array)),
-                        arrays.numbers(array, of_points ? arrays.points() : cells, of_points ? arrays.points() : arrays.cells()),
+                        arrays.numbers(array, of_points ? points : cells, of_points ? arrays.points() : arrays.cells()),
                         !arrays.type(array).starts_with("Float")});
     }
   arrays.check_end();
@@ -444,10 +473,10 @@ std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesys
 }
 
 template <int D>
-OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file) {
+OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file, std::size_t& left_out) {
   const std::string name = file.string();
   Arrays arrays(text, name);
-  return GridReader<D>(arrays).read();
+  return GridReader<D>(arrays).read(left_out);
 }
 
 template <int D>
@@ -463,8 +492,8 @@ int vtu_dimension(std::string_view text, const std::filesystem::path& file) {
   return static_cast<int>(read_dimension(arrays));
 }
 
-template OutputMesh<2> read_vtu<2>(std::string_view, const std::filesystem::path&);
-template OutputMesh<3> read_vtu<3>(std::string_view, const std::filesystem::path&);
+template OutputMesh<2> read_vtu<2>(std::string_view, const std::filesystem::path&, std::size_t&);
+template OutputMesh<3> read_vtu<3>(std::string_view, const std::filesystem::path&, std::size_t&);
 template MeshPiece<2> read_vtu_piece<2>(std::string_view, const std::filesystem::path&);
 template MeshPiece<3> read_vtu_piece<3>(std::string_view, const std::filesystem::path&);
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes the part of an input of Abaqus or CalculiX that is the mesh: nodes; elements C3D4 (2D: CPS3) in an element set a region;
-// of each marker a node set, and of one that walls have an element-based surface. Numbers are places from 1. A wall between cells
-// is the face of the one with the smaller number. Coordinates have at most 20 characters, as both programs read no more: up to 14
-// digits where 17 would not fit. Abaqus Analysis User's Guide, "Element-based surface definition"; CalculiX CrunchiX User's
-// Manual, *SURFACE.
+// Writes the part of an input of Abaqus or CalculiX that is the mesh: nodes; elements C3D4 (2D: CPS3; of second order C3D10,
+// CPS6) in an element set a region; of each marker a node set, and of one that walls have an element-based surface. Numbers are
+// places from 1. A wall between cells is the face of the one with the smaller number. Coordinates have at most 20 characters, as
+// both programs read no more: up to 14 digits where 17 would not fit. Abaqus Analysis User's Guide, "Element-based surface
+// definition"; CalculiX CrunchiX User's Manual, *SURFACE.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -13,6 +13,7 @@
 
 #include "input/words.hpp"
 #include "io/formats.hpp"
+#include "io/write/mid_sides.hpp"
 #include "io/write/valid_names.hpp"
 #include "io/write/wall_sides.hpp"
 
@@ -33,8 +34,8 @@ void put_coordinate(TextBuffer& out, double x) {
 template <int D>
 class AbaqusWriter {
  public:
-  AbaqusWriter(const OutputMesh<D>& mesh, FileOutput& out)
-      : mesh_(mesh), out_(out), names_(valid_names(mesh.names, abaqus_names)) {}
+  AbaqusWriter(const OutputMesh<D>& mesh, const MidSides<D>* middles, FileOutput& out)
+      : mesh_(mesh), middles_(middles), out_(out), names_(valid_names(mesh.names, abaqus_names)) {}
 
   void write() {
     out_.put("*HEADING\npgdr\n");
@@ -77,19 +78,29 @@ class AbaqusWriter {
     std::stable_sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (std::size_t begin = 0, end = 0; begin < cells.size(); begin = end) {
       while (end < cells.size() && cells[end].first == cells[begin].first) ++end;
-      out_.put(D == 3 ? "*ELEMENT, TYPE=C3D4, ELSET=" : "*ELEMENT, TYPE=CPS3, ELSET=");
+      out_.put("*ELEMENT, TYPE=");
+      out_.put(middles_ ? (D == 3 ? "C3D10" : "CPS6") : (D == 3 ? "C3D4" : "CPS3"));
+      out_.put(", ELSET=");
       out_.put(names.at(cells[begin].first));
       out_.put('\n');
       out_.put_each(end - begin, [&](TextBuffer& text, std::size_t i) {
         const std::uint32_t cell = cells[begin + i].second;
         text.put_number(std::uint64_t{cell} + 1);
-        for (const std::uint32_t v : mesh_.cells[cell]) {
+        each_node(mesh_.cells[cell], [&text](std::uint32_t v) {
           text.put(", ");
           text.put_number(std::uint64_t{v} + 1);
-        }
+        });
         text.put('\n');
       });
     }
+  }
+
+  /// Corners, and of second order the nodes in the middles of edges.
+  template <class Corners, class F>
+  void each_node(const Corners& corners, const F& f) const {
+    for (const std::uint32_t v : corners) f(v);
+    for (std::size_t e = 0; middles_ && e < mid_sides_of(corners.size()); ++e)
+      f(middles_->between(corners[abaqus_mid_sides[e][0]], corners[abaqus_mid_sides[e][1]]));
   }
 
   std::vector<int> markers(bool of_walls) const {
@@ -112,10 +123,8 @@ class AbaqusWriter {
     const auto add = [&nodes](int marker, std::uint32_t v, bool counts_0) {
       if (marker != 0 || counts_0) nodes.emplace_back(marker, v);
     };
-    for (const auto& w : walls_of<D>(mesh_))
-      for (const std::uint32_t v : w.vertices) add(w.marker, v, true);
-    for (const auto& s : mesh_.subsegments)
-      for (const std::uint32_t v : s.vertices) add(s.marker, v, D == 2);
+    for (const auto& w : walls_of<D>(mesh_)) each_node(w.vertices, [&](std::uint32_t v) { add(w.marker, v, true); });
+    for (const auto& s : mesh_.subsegments) each_node(s.vertices, [&](std::uint32_t v) { add(s.marker, v, D == 2); });
     for (std::uint32_t v = 0; v < mesh_.point_markers.size(); ++v) add(mesh_.point_markers[v], v, false);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -159,6 +168,7 @@ class AbaqusWriter {
   }();
 
   const OutputMesh<D>& mesh_;
+  const MidSides<D>* middles_;
   FileOutput& out_;
   const Names names_;
   std::map<int, std::string> marker_names_;
@@ -167,11 +177,11 @@ class AbaqusWriter {
 }  // namespace
 
 template <int D>
-void write_abaqus(const OutputMesh<D>& mesh, FileOutput& out) {
-  AbaqusWriter<D>(mesh, out).write();
+void write_abaqus(const OutputMesh<D>& mesh, const MidSides<D>* middles, FileOutput& out) {
+  AbaqusWriter<D>(mesh, middles, out).write();
 }
 
-template void write_abaqus<2>(const OutputMesh<2>&, FileOutput&);
-template void write_abaqus<3>(const OutputMesh<3>&, FileOutput&);
+template void write_abaqus<2>(const OutputMesh<2>&, const MidSides<2>*, FileOutput&);
+template void write_abaqus<3>(const OutputMesh<3>&, const MidSides<3>*, FileOutput&);
 
 }  // namespace pgdr::detail

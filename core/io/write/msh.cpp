@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "io/formats.hpp"
+#include "io/write/mid_sides.hpp"
 #include "io/write/valid_names.hpp"
 #include "io/write/wall_sides.hpp"
 
@@ -84,8 +85,8 @@ struct Box {
 /// The elements of one dimension, as the sections need them.
 struct Layer {
   Groups groups;
-  std::int32_t type;  ///< gmsh's number
-  std::size_t corners;
+  std::int32_t type;                 ///< gmsh's number
+  std::size_t nodes;                 ///< of an element: corners, and of second order those in the middles of edges
   std::vector<std::uint32_t> group;  ///< of each element; `none`: it is not written
   std::uint64_t first_tag = 1;       ///< element i has tag first_tag + i
   Buckets buckets{};
@@ -94,12 +95,17 @@ struct Layer {
 template <int D>
 class MshWriter {
  public:
-  MshWriter(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out)
-      : mesh_(mesh), periodic_(periodic), names_(valid_names(mesh.names, msh_names)), out_(out) {
+  MshWriter(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, const MidSides<D>* middles, FileOutput& out)
+      : mesh_(mesh), periodic_(periodic), middles_(middles), names_(valid_names(mesh.names, msh_names)), out_(out) {
     layers_.push_back(point_layer());
     layers_.push_back(constraint_layer(mesh.subsegments, 1, 1));
     if constexpr (D == 3) layers_.push_back(constraint_layer(mesh.subfacets, 2, 2));
     layers_.push_back(cell_layer());
+    if (middles_)
+      for (std::size_t d = 1; d < layers_.size(); ++d) {
+        layers_[d].type = second_order[d];
+        layers_[d].nodes = nodes_of_second_order(layers_[d].nodes);
+      }
     std::uint64_t tag = 1;
     for (auto layer = layers_.rbegin(); layer != layers_.rend(); ++layer) {
       layer->first_tag = tag;
@@ -154,6 +160,14 @@ class MshWriter {
     return layer;
   }
 
+  static constexpr std::int32_t second_order[] = {0, 8, 9, 11};  ///< gmsh's numbers of elements, by dimension
+
+  std::uint32_t node(int dimension, std::size_t element, std::size_t k) const {
+    const auto corners = static_cast<std::size_t>(dimension) + 1;
+    if (k < corners) return corner(dimension, element, k);
+    const auto& [a, b] = gmsh_mid_sides[k - corners];
+    return middles_->between(corner(dimension, element, a), corner(dimension, element, b));
+  }
   std::uint32_t corner(int dimension, std::size_t element, std::size_t k) const {
     if (dimension == D) return mesh_.cells[element][k];
     if (dimension == 0) return static_cast<std::uint32_t>(element);
@@ -234,8 +248,8 @@ class MshWriter {
   void put_entity(const Layer& layer, std::size_t g) {
     Box box{{}, {}};
     for (std::size_t i = layer.buckets.begin[g]; i < layer.buckets.begin[g + 1]; ++i) {
-      for (std::size_t k = 0; k < layer.corners; ++k)
-        box.add(coordinates(corner(layer.groups.dimension(), layer.buckets.items[i], k)));
+      for (std::size_t k = 0; k < layer.nodes; ++k)
+        box.add(coordinates(node(layer.groups.dimension(), layer.buckets.items[i], k)));
     }
     put(static_cast<std::int32_t>(g + 1));
     for (const double x : box.low) put(x);
@@ -254,8 +268,8 @@ class MshWriter {
       const Layer& layer = layers_[d];
       for (std::size_t i = layer.buckets.items.size(); i-- > 0;) {
         const std::uint32_t element = layer.buckets.items[i];
-        for (std::size_t k = 0; k < layer.corners; ++k)
-          home[corner(layer.groups.dimension(), element, k)] = static_cast<std::uint32_t>(first_group[d] + layer.group[element]);
+        for (std::size_t k = 0; k < layer.nodes; ++k)
+          home[node(layer.groups.dimension(), element, k)] = static_cast<std::uint32_t>(first_group[d] + layer.group[element]);
       }
     }
     return home;
@@ -318,8 +332,8 @@ class MshWriter {
     out_.put_each(end - begin, [&](TextBuffer& bytes, std::size_t i) {
       const std::uint32_t element = layer.buckets.items[begin + i];
       bytes.put_binary(layer.first_tag + element);
-      for (std::size_t k = 0; k < layer.corners; ++k)
-        bytes.put_binary(std::uint64_t{corner(layer.groups.dimension(), element, k)} + 1);
+      for (std::size_t k = 0; k < layer.nodes; ++k)
+        bytes.put_binary(std::uint64_t{node(layer.groups.dimension(), element, k)} + 1);
     });
   }
 
@@ -349,6 +363,7 @@ class MshWriter {
 
   const OutputMesh<D>& mesh_;
   const std::vector<PeriodicPairs>& periodic_;
+  const MidSides<D>* middles_;
   const Names names_;
   FileOutput& out_;
   std::vector<Layer> layers_;  ///< by dimension
@@ -358,11 +373,12 @@ class MshWriter {
 }  // namespace
 
 template <int D>
-void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out) {
-  MshWriter<D>(mesh, periodic, out).write();
+void write_msh(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, const MidSides<D>* middles,
+               FileOutput& out) {
+  MshWriter<D>(mesh, periodic, middles, out).write();
 }
 
-template void write_msh<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, FileOutput&);
-template void write_msh<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_msh<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, const MidSides<2>*, FileOutput&);
+template void write_msh<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, const MidSides<3>*, FileOutput&);
 
 }  // namespace pgdr::detail

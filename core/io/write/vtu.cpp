@@ -26,16 +26,19 @@ void put_file(const VtuPart<D>& part, FileOutput& out) {
 }  // namespace
 
 template <int D>
-void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, FileOutput& out) {
+void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& periodic, const MidSides<D>* middles,
+               FileOutput& out) {
   VtuPart<D> part = VtuPart<D>::whole(mesh);
+  part.middles = middles;
   if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
   put_file<D>(part, out);
 }
 
 template <int D>
 void write_vtu_with_fields(const OutputMesh<D>& mesh, const MeshFields& fields, const std::vector<PeriodicPairs>& periodic,
-                           FileOutput& out) {
+                           const MidSides<D>* middles, FileOutput& out) {
   VtuPart<D> part = VtuPart<D>::whole(mesh);
+  part.middles = middles;
   if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
   part.fields = &fields;
   put_file<D>(part, out);
@@ -73,10 +76,12 @@ void write_vtu_rows(const MeshPiece<D>& piece, bool frame, FileSlices& out) {
   out.close();
 }
 
-template void write_vtu<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, FileOutput&);
-template void write_vtu<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, FileOutput&);
-template void write_vtu_with_fields<2>(const OutputMesh<2>&, const MeshFields&, const std::vector<PeriodicPairs>&, FileOutput&);
-template void write_vtu_with_fields<3>(const OutputMesh<3>&, const MeshFields&, const std::vector<PeriodicPairs>&, FileOutput&);
+template void write_vtu<2>(const OutputMesh<2>&, const std::vector<PeriodicPairs>&, const MidSides<2>*, FileOutput&);
+template void write_vtu<3>(const OutputMesh<3>&, const std::vector<PeriodicPairs>&, const MidSides<3>*, FileOutput&);
+template void write_vtu_with_fields<2>(const OutputMesh<2>&, const MeshFields&, const std::vector<PeriodicPairs>&,
+                                       const MidSides<2>*, FileOutput&);
+template void write_vtu_with_fields<3>(const OutputMesh<3>&, const MeshFields&, const std::vector<PeriodicPairs>&,
+                                       const MidSides<3>*, FileOutput&);
 template void write_vtu_of_piece<2>(const MeshPiece<2>&, FileOutput&);
 template void write_vtu_of_piece<3>(const MeshPiece<3>&, FileOutput&);
 template void write_vtu_rows<2>(const MeshPiece<2>&, bool, FileSlices&);

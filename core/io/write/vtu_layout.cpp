@@ -53,10 +53,7 @@ class Layout {
     });
     add_connectivity();
     add_offsets();
-    constexpr char line = 3, triangle = 5, tetrahedron = 10;  // VTK's numbers
-    add_cell_rows(
-        "Cells", "UInt8", "types", "", 1, [](TextBuffer& bytes, std::size_t) { bytes.put(D == 3 ? tetrahedron : triangle); },
-        [](TextBuffer& bytes, std::size_t) { bytes.put(triangle); }, [](TextBuffer& bytes, std::size_t) { bytes.put(line); });
+    add_types();
     // The last array announced comes first. VTK takes any order; meshio, which replaces offsets one after the other and looks
     // arrays up by offset, finds the right ones only in this.
     Number at = 0;
@@ -216,7 +213,18 @@ class Layout {
     add_fields(true);
   }
 
+  void add_types() {
+    const bool second = part_.middles != nullptr;  // VTK's numbers: linear, quadratic
+    const auto put = [](char type) { return [type](TextBuffer& bytes, std::size_t) { bytes.put(type); }; };
+    const char line = second ? 21 : 3, triangle = second ? 22 : 5, tetrahedron = second ? 24 : 10;
+    add_cell_rows("Cells", "UInt8", "types", "", 1, put(D == 3 ? tetrahedron : triangle), put(triangle), put(line));
+  }
+
+  /// Of an element of so many corners.
+  std::size_t nodes(std::size_t corners) const { return part_.middles ? nodes_of_second_order(corners) : corners; }
+
   void add_connectivity() {
+    if (part_.middles) return add_connectivity_of_second_order();
     // A look at the numbers for each corner would cost the writer of a whole mesh a tenth of its time.
     if (const auto* numbers = part_.point_numbers)
       add_connectivity([numbers](std::uint32_t v) { return static_cast<std::int64_t>((*numbers)[v]); });
@@ -225,10 +233,20 @@ class Layout {
   }
   template <class NumberOf>
   void add_connectivity(const NumberOf& number_of) {
-    const auto put = [number_of](TextBuffer& bytes, const auto& vertices) {
+    put_connectivity([number_of](TextBuffer& bytes, const auto& vertices) {
       for (const std::uint32_t v : vertices) bytes.put_binary(number_of(v));
-    };
-    constexpr std::size_t cell = 8 * (D + 1), subfacet = 24, subsegment = 16;
+    });
+  }
+  void add_connectivity_of_second_order() {
+    put_connectivity([middles = part_.middles](TextBuffer& bytes, const auto& vertices) {
+      for (const std::uint32_t v : vertices) bytes.put_binary(std::int64_t{v});
+      for (std::size_t e = 0; e < mid_sides_of(vertices.size()); ++e)
+        bytes.put_binary(std::int64_t{middles->between(vertices[vtk_mid_sides[e][0]], vertices[vtk_mid_sides[e][1]])});
+    });
+  }
+  template <class Put>
+  void put_connectivity(const Put& put) {
+    const std::size_t cell = 8 * nodes(D + 1), subfacet = 8 * nodes(3), subsegment = 8 * nodes(2);
     const Number subfacets = cell * total_.cells, subsegments = subfacets + subfacet * total_.subfacets;
     add_grid_rows(
         "Cells", "Int64", "connectivity", "", {0, subfacets, subsegments, subsegments + subsegment * total_.subsegments},
@@ -243,9 +261,9 @@ class Layout {
         bytes.put_binary(static_cast<std::int64_t>(begin + (first + i + 1) * corners));
       };
     };
-    const Number subfacets = (D + 1) * total_.cells, subsegments = subfacets + 3 * total_.subfacets;
-    add_cell_rows("Cells", "Int64", "offsets", "", 8, from(0, part_.first_cell, D + 1), from(subfacets, part_.first_subfacet, 3),
-                  from(subsegments, part_.first_subsegment, 2));
+    const Number subfacets = nodes(D + 1) * total_.cells, subsegments = subfacets + nodes(3) * total_.subfacets;
+    add_cell_rows("Cells", "Int64", "offsets", "", 8, from(0, part_.first_cell, nodes(D + 1)),
+                  from(subfacets, part_.first_subfacet, nodes(3)), from(subsegments, part_.first_subsegment, nodes(2)));
   }
 
   const VtuPart<D>& part_;

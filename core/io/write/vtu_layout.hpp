@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/write/mid_sides.hpp"
 #include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/mesh_piece.hpp"
@@ -36,6 +37,7 @@ struct VtuPart {
   const MeshPiece<D>* piece = nullptr;          ///< of a whole mesh whose numbers the file has, too
   std::vector<std::uint32_t> periodic_of = {};  ///< of all points; empty: nothing is periodic
   const MeshFields* fields = nullptr;           ///< of a whole mesh: further arrays
+  const MidSides<D>* middles = nullptr;         ///< of a whole mesh of second order, which has these nodes
 
   static VtuPart whole(const OutputMesh<D>& mesh);          ///< all rows of the file of a mesh
   static VtuPart rows_of(const MeshPiece<D>& piece);        ///< its rows of the file of the whole mesh

@@ -56,10 +56,13 @@ class Mesh:
 
     @classmethod
     def read(cls, path: _arguments.Path) -> Mesh:
-        """The mesh in a .vtu, .pvtu, .msh, .mesh or .ele file. Raises FileError, InputError with file and line."""
+        """The mesh in a .vtu, .pvtu, .msh, .mesh or .ele file. Cells of second order are read by their corners, which a Python warning
+        says. Raises FileError, InputError with file and line."""
         file = _arguments.path(path)
-        read = _pgdr.read_mesh2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_mesh3
-        return cls._of(read(file))
+        core, left_out = (_pgdr.read_mesh2 if _pgdr.file_dimension(file) == 2 else _pgdr.read_mesh3)(file)
+        for message in left_out:
+            warnings.warn(message, stacklevel=2)
+        return cls._of(core)
 
     @classmethod
     def from_arrays(cls, points: npt.ArrayLike, cells: npt.ArrayLike, *, regions: Optional[npt.ArrayLike] = None,
@@ -250,12 +253,13 @@ class Mesh:
         return report
 
     def write(self, path: _arguments.Path, *, first_index: int = 1, edges: bool = False, neighbors: bool = False,
-              pieces: int = 0) -> None:
+              pieces: int = 0, order: int = 1) -> None:
         """Writes .vtu, .pvtu, .msh, .mesh, or .node with .ele, by the extension, or for other programs .inp (Abaqus, CalculiX), .mfem, or
         a folder named polyMesh (OpenFOAM); a file there is replaced when all is written. Names that the format cannot hold are
         written as it can, which a Python warning says.
 
-        first_index, edges, neighbors are for .node and .ele; pieces for .pvtu. Raises FileError, UsageError.
+        first_index, edges, neighbors are for .node and .ele; pieces for .pvtu. order=2, of .msh, .vtu and .inp: with a node in the middle
+        of each edge, which stays straight. Raises FileError, UsageError.
         """
         file = _arguments.path(path)
         for unfit in self._core.unfit_names(file):
@@ -263,7 +267,7 @@ class Mesh:
         with WORK:
             self._core.write(file, _arguments.whole_number("first_index", first_index, 0, 1),
                              _arguments.flag("edges", edges), _arguments.flag("neighbors", neighbors),
-                             _arguments.whole_number("pieces", pieces, 0, 100000))
+                             _arguments.whole_number("pieces", pieces, 0, 100000), _arguments.whole_number("order", order, 1, 2))
 
     def voronoi(self) -> Any:
         """2D: the Voronoi cells of the vertices, clipped to the domain, as a `pgdr.Voronoi`. Of meshes of conforming_delaunay=True;
