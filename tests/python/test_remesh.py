@@ -289,6 +289,7 @@ class Loop(unittest.TestCase):
             self.assertGreaterEqual(step.left.min(), 0)
         for before, after in zip(made, made[1:]):
             self.assertTrue(pgdr.check(after.mesh, before.mesh))
+        self.assertEqual(moving_source.picture(made[-1]).count("<path"), cells[-1])
 
     def test_sizes_from_error(self):
         mesh = pgdr.mesh(plates(0), edge_length=0.1)

@@ -5,8 +5,9 @@
 distance from the source, what the source has left comes along, and the source leaves as much again. Prints the cells, and how far what is
 there is from what was left.
 
-Usage: moving_source.py [STEPS [MESH.vtu]]     (MESH.vtu: where the last mesh goes, with the field `left`)
+Usage: moving_source.py [STEPS [MESH.vtu | PICTURE.svg]]     (where the last mesh goes, with the field `left`, or is drawn)
 """
+import pathlib
 import sys
 from typing import NamedTuple
 
@@ -50,9 +51,20 @@ def integral(step):
     return (np.linalg.det(corners[:, 1:] - corners[:, :1]) / 2 * step.left).sum()
 
 
+def picture(step, width=450):
+    """An SVG of the cells, the darker the more is left there."""
+    at = np.round((step.mesh.points * [1, -1] + 1) / 2 * width, 1)
+    shades = np.round(255 - 200 * np.clip(step.left / np.quantile(step.left, 0.98), 0, 1)).astype(int)
+    paths = ["M" + "L".join(f"{x:g} {y:g}" for x, y in at[cell]) + "z" for cell in step.mesh.cells]
+    cells = "\n".join(f'<path fill="#{s:02x}{s:02x}ff" d="{path}"/>' for s, path in zip(shades, paths))
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {width}" stroke="#556" stroke-width="0.3">\n{cells}\n</svg>\n')
+
+
 if __name__ == "__main__":
     print("cells    left      off")
     for step in steps(int(sys.argv[1]) if len(sys.argv) > 1 else 20):
         print(f"{len(step.mesh.cells):5} {integral(step):7.3f} {integral(step) - step.amount:8.1e}")
-    if len(sys.argv) > 2:
+    if len(sys.argv) > 2 and sys.argv[2].endswith(".svg"):
+        pathlib.Path(sys.argv[2]).write_text(picture(step), encoding="utf-8")
+    elif len(sys.argv) > 2:
         pgdr.write_fields(step.mesh, sys.argv[2], cell_data={"left": step.left})
