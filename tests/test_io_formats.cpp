@@ -199,11 +199,38 @@ TEST(ReadMsh, CellsThatAreNoSimplices) {
   const Plc<3> plc = detail::read_plc_from<3>(msh_file(m, {}), "a.msh");
   ASSERT_EQ(plc.facets.size(), 1u);
   EXPECT_EQ(plc.facets[0].polygons, (std::vector<Corners>{{0, 1, 2, 3}}));
-  EXPECT_EQ(plc.points.size(), 5u);  // the apex goes, the point of nothing stays
-  m.elements = {{9, 1, {1, 2, 3, 4, 5, 6}}};
+  EXPECT_EQ(plc.points.size(), 5u);            // the apex goes, the point of nothing stays
+  m.elements = {{17, 1, {1, 2, 3, 4, 5, 6}}};  // hexahedra of second order
   const auto error = error_of<InputError>([&] { detail::read_plc_from<3>(msh_file(m, {2}), "a.msh"); });
   EXPECT_EQ(error.code, Errc::unknown_format);
-  EXPECT_NE(error.message.find("type 9"), std::string::npos);
+  EXPECT_NE(error.message.find("type 17"), std::string::npos);
+}
+
+/// Tetrahedra, triangles and lines of second order count by their corners, and nodes that are no corners of anything go.
+TEST(ReadMsh, SecondOrder) {
+  MshModel m;
+  const std::array<Point3, 4> corners{{{{0, 0, 0}}, {{2, 0, 0}}, {{0, 2, 0}}, {{0, 0, 2}}}};
+  m.nodes = {{1, {0, 0, 0}}, {5, {1, 0, 0}}, {2, {2, 0, 0}},  {6, {1, 1.5, 0}}, {3, {0, 2, 0}}, {7, {0, 1, 0}},
+             {8, {0, 0, 1}}, {9, {0, 1, 1}}, {10, {1, 0, 1}}, {4, {0, 0, 2}},   {11, {9, 9, 9}}};
+  m.elements = {{8, 1, {1, 2, 5}}, {9, 1, {1, 2, 3, 5, 6, 7}}, {11, 1, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10}}};
+  for (const MshVariant& v : msh_variants) {
+    const auto mesh = detail::read_mesh_from<3>(msh_file(m, v), "a.msh");
+    ASSERT_EQ(mesh.points.size(), 5u);  // in the order of their tags, with the one that nothing has
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(mesh.points[i], corners[i]);
+    ASSERT_EQ(mesh.cells.size(), 1u);
+    EXPECT_EQ(mesh.cells[0], (std::array<std::uint32_t, 4>{0, 1, 2, 3}));
+    ASSERT_EQ(mesh.subfacets.size(), 1u);
+    EXPECT_EQ(mesh.subfacets[0].vertices, (std::array<std::uint32_t, 3>{0, 1, 2}));
+    ASSERT_EQ(mesh.subsegments.size(), 1u);
+    EXPECT_EQ(mesh.subsegments[0].vertices, (std::array<std::uint32_t, 2>{0, 1}));
+    const auto plc = detail::read_plc_from<3>(msh_file(m, v), "a.msh");
+    EXPECT_EQ(plc.points.size(), 5u);
+    EXPECT_EQ(plc.facets.size(), 4u);
+  }
+  m.elements.push_back({1, 1, {5, 11}});  // what is a corner of something stays
+  EXPECT_EQ(detail::read_mesh_from<3>(msh_file(m, {}), "a.msh").points.size(), 6u);
+  m.elements = {{11, 1, {1, 2, 3, 4, 5, 6, 7, 8, 9, 77}}};
+  EXPECT_EQ(error_of<InputError>([&] { detail::read_mesh_from<3>(msh_file(m, {}), "a.msh"); }).code, Errc::index_out_of_range);
 }
 
 TEST(ReadMsh, MistakesAreNamed) {

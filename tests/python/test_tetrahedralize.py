@@ -86,7 +86,7 @@ class Tetrahedralize(unittest.TestCase):
 
     def test_refusals_say_what_to_use(self):
         for keywords, word in (({"order": 2}, "order"), ({"cdt": True}, "cdt"),
-                               ({"switches": "pY", "nobisect": True}, "two ways"), ({"switches": "pr"}, "r of"), ({"switches": "pu"}, "'u'"),
+                               ({"switches": "pY", "nobisect": True}, "two ways"), ({"switches": "pr"}, "a mesh in the place of the surface"), ({"switches": "pu"}, "'u'"),
                                ({"switches": "pq", "minratio": 2}, "two ways"), ({"switches": "pq1.2.3"}, "1.2.3"),
                                ({"maxvolume": 1, "max_volume": 1}, "the same")):
             with self.subTest(keywords), self.assertRaises(pgdr.UsageError) as caught:
