@@ -199,6 +199,10 @@ class MeshRun {
   void make_sides() {
     if (a_.periodic.empty()) return;
     const Stopwatch watch;
+    if constexpr (D == 3) {  // facets have other numbers then
+      if (options_.prepared) options_.prepared(Domain<3>(plc_, options_.stop));
+      options_.prepared = {};
+    }
     periodic_ = make_periodic(plc_, periodic_sides<D>(a_.periodic, plc_.names), options_);
     plc_ = periodic_->plc;
     sides_ = periodic_->sides;
@@ -378,6 +382,8 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   require_3d(arguments.surface, dimension);
   if (!arguments.periodic.empty() && ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--periodic is for one process"});
+  if (!arguments.periodic.empty() && arguments.surface.tolerance)
+    throw UsageError({.code = Errc::bad_option, .message = "--periodic and --surface-tolerance exclude each other"});
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

@@ -19,7 +19,7 @@ namespace {
 using detail::Cuts;
 using detail::SideChain;
 using detail::SideInput;
-using Chain = SideChain<2>;
+using PlanarChain = SideChain<2>;
 
 class PeriodicMaker {
  public:
@@ -27,7 +27,7 @@ class PeriodicMaker {
       : given_(plc), input_(detail::side_input(plc, detail::markers_of(sides))), points_(plc.points, input_.reach) {
     for (const Point2& p : plc.points) points_.add(p);
     out_.sides = detail::make_chains(input_, points_, sides, chains_);
-    for (Chain& chain : chains_) chain.find_pieces();
+    for (PlanarChain& chain : chains_) chain.find_pieces();
   }
 
   PeriodicInput<2> run(RefineOptions<2> options, std::uint32_t most_rounds) {
@@ -49,12 +49,12 @@ class PeriodicMaker {
  private:
   bool divide(const OutputMesh<2>& mesh) {
     detail::PieceCuts cuts;
-    for (const Chain& chain : chains_) cuts.push_back(cuts_of_pieces(chain, mesh));
+    for (const PlanarChain& chain : chains_) cuts.push_back(cuts_of_pieces(chain, mesh));
     return detail::cut_pieces<2>(chains_, cuts);
   }
 
   /// Vertices of the mesh on pieces, side by side.
-  std::vector<std::vector<Cuts>> cuts_of_pieces(const Chain& chain, const OutputMesh<2>& mesh) const {
+  std::vector<std::vector<Cuts>> cuts_of_pieces(const PlanarChain& chain, const OutputMesh<2>& mesh) const {
     std::vector<std::vector<Cuts>> cuts(chain.pieces().size());
     for (const auto& side : chain.sides()) {
       std::vector<detail::Box<2>> boxes;
@@ -79,24 +79,24 @@ class PeriodicMaker {
   }
 
   bool is_periodic(int marker) const {
-    return std::ranges::any_of(chains_, [marker](const Chain& chain) { return chain.has(marker); });
+    return std::ranges::any_of(chains_, [marker](const PlanarChain& chain) { return chain.has(marker); });
   }
 
   /// The given input with the pieces of its periodic sides.
   void rebuild() {
     Plc<2> plc = given_;
     std::erase_if(plc.segments, [&](const auto& s) { return is_periodic(s.marker); });
-    for (const Chain& chain : chains_) add_sides(chain, plc);
+    for (const PlanarChain& chain : chains_) add_sides(chain, plc);
     plc.source.segment_lines.clear();
     if (!plc.source.point_lines.empty()) plc.source.point_lines.resize(plc.points.size(), 0);
     out_.plc = std::move(plc);
   }
 
   /// Appends points that are not of the given input, and the pieces as segments.
-  void add_sides(const Chain& chain, Plc<2>& plc) const {
+  void add_sides(const PlanarChain& chain, Plc<2>& plc) const {
     const std::size_t given = given_.points.size(), columns = given == 0 ? 0 : given_.point_attributes.size() / given;
     for (const std::uint32_t s : chain.order()) {
-      const Chain::Side& side = chain.sides()[s];
+      const PlanarChain::Side& side = chain.sides()[s];
       std::vector<std::uint32_t> number(side.at);
       for (std::uint32_t k = 0; k < number.size(); ++k) {
         if (number[k] < given) continue;
@@ -145,7 +145,7 @@ class PeriodicMaker {
   const Plc<2>& given_;
   const SideInput<2> input_;
   detail::NearPoints<2> points_;
-  std::vector<Chain> chains_;
+  std::vector<PlanarChain> chains_;
   PeriodicInput<2> out_;
 };
 

@@ -20,7 +20,7 @@ namespace {
 using detail::SideInput;
 using detail::SideSizes;
 using detail::SideSurface;
-using Chain = detail::SideChain<3>;
+using SurfaceChain = detail::SideChain<3>;
 
 /// Are facets of any of these markers to stay as they are given?
 bool keeps_any(const RefineOptions<3>& options, const detail::SideMarkers& markers) {
@@ -42,7 +42,7 @@ class SurfaceMaker {
     options_.prepared = {};
     for (const Point3& p : domain_.points()) points_.add(p);
     out_.sides = detail::make_chains(input_, points_, sides, chains_);
-    for (Chain& chain : chains_) chain.find_pieces();
+    for (SurfaceChain& chain : chains_) chain.find_pieces();
   }
 
   PeriodicInput<3> run(std::uint32_t most_rounds) {
@@ -54,7 +54,7 @@ class SurfaceMaker {
     }
     out_.kept_markers.insert(out_.kept_markers.end(), markers_.begin(), markers_.end());
     std::vector<SideSurface> surfaces;
-    for (Chain& chain : chains_) surfaces.emplace_back(domain_, chain, input_);
+    for (SurfaceChain& chain : chains_) surfaces.emplace_back(domain_, chain, input_);
     mesh_surfaces(surfaces, most_rounds);
     detail::PeriodicPlc made(given_, domain_, input_, points_);
     for (std::size_t c = 0; c < chains_.size(); ++c) {
@@ -69,7 +69,7 @@ class SurfaceMaker {
   void mesh_surfaces(std::vector<SideSurface>& surfaces, std::uint32_t most_rounds) {
     const OutputMesh<3> as_it_likes = options_.refine ? mesh_without_pairs() : OutputMesh<3>();
     std::vector<SideSizes> sizes;
-    for (const Chain& chain : chains_) sizes.emplace_back(as_it_likes, chain, options_.size);
+    for (const SurfaceChain& chain : chains_) sizes.emplace_back(as_it_likes, chain, options_.size);
     RefineOptions<2> options;
     options.radius_edge_bound = smallest_proved_bound<2>();
     options.refine = options_.refine;
@@ -90,6 +90,7 @@ class SurfaceMaker {
   OutputMesh<3> mesh_without_pairs() const {
     RefineOptions<3> options = options_;
     options.min_dihedral = 0;
+    if (options.time_limit) *options.time_limit /= 3;  // most is for the mesh that is wanted
     return refine(given_, options).mesh;
   }
 
@@ -99,37 +100,36 @@ class SurfaceMaker {
   const Domain<3> domain_;
   const SideInput<3> input_;
   detail::NearPoints<3> points_;
-  std::vector<Chain> chains_;
+  std::vector<SurfaceChain> chains_;
   PeriodicInput<3> out_;
 };
 
-using Edge = std::array<std::uint32_t, 2>;
-using Ends = std::array<Point3, 2>;
+using InnerEdge = std::array<std::uint32_t, 2>;
 
 /// Edges by the coordinates of their ends.
 class InnerEdges {
  public:
   explicit InnerEdges(const PeriodicInput<3>& made) : made_(made) {
-    for (const Edge& e : made.inner_edges)
+    for (const InnerEdge& e : made.inner_edges)
       for (const std::uint32_t v : e) number_.try_emplace(made.plc.points[v].x, v);
   }
 
-  std::optional<Edge> find(const Point3& a, const Point3& b) const {
+  std::optional<InnerEdge> find(const Point3& a, const Point3& b) const {
     const auto v = number_.find(a.x), w = number_.find(b.x);
     if (v == number_.end() || w == number_.end()) return std::nullopt;
-    const Edge e{std::min(v->second, w->second), std::max(v->second, w->second)};
+    const InnerEdge e{std::min(v->second, w->second), std::max(v->second, w->second)};
     if (!std::ranges::binary_search(made_.inner_edges, e)) return std::nullopt;
     return e;
   }
 
   /// The given facet that it is inside of.
-  std::uint32_t facet_of(const Edge& e) {
+  std::uint32_t facet_of(const InnerEdge& e) {
     if (facets_.empty())
       for (std::uint32_t f = 0; f < made_.plc.facets.size(); ++f) {
         const auto& polygon = made_.plc.facets[f].polygons[0];
         for (std::size_t i = 0; polygon.size() == 3 && i < 3; ++i) {
           const std::uint32_t v = polygon[i], w = polygon[(i + 1) % 3];
-          facets_.try_emplace(Edge{std::min(v, w), std::max(v, w)}, made_.given_facets[f]);
+          facets_.try_emplace(InnerEdge{std::min(v, w), std::max(v, w)}, made_.given_facets[f]);
         }
       }
     return facets_.at(e);
@@ -138,7 +138,7 @@ class InnerEdges {
  private:
   const PeriodicInput<3>& made_;
   std::map<std::array<double, 3>, std::uint32_t> number_;
-  std::map<Edge, std::uint32_t> facets_;
+  std::map<InnerEdge, std::uint32_t> facets_;
 };
 
 }  // namespace

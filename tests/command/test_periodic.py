@@ -183,6 +183,16 @@ class PeriodicCells(Case):
         self.assertIn("FAILED", self.pgdr("check", self.output, *self.SIDES, expect=6).stdout)
         self.assertIn("--periodic takes a motion of 12 numbers in 3D",
                       self.mesh(model, "--periodic", "1=2:1,0,1,0,1,0", expect=2).stderr)
+        self.assertIn("exclude each other", self.mesh(model, *self.SIDES, "--surface-tolerance", "1%", expect=2).stderr)
+
+    def test_limits(self):
+        """A mesh that a limit has ended has no pairs, and what is ahead is said of the facets as given."""
+        model = self.file("cell.poly", periodic_cells.drawn(2).poly())
+        facets = int(model.read_text().split("\n")[109].split()[0])
+        done = self.mesh(model, *self.SIDES, "--size", 0.1, "--max-vertices", 600, "--report", self.report, expect=5)
+        for number in re.findall(r"facets? (\d+)", done.stdout):
+            self.assertLess(int(number), facets)
+        self.assertEqual(self.json()["periodic"], [])
 
 
 if __name__ == "__main__":

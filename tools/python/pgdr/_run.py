@@ -190,6 +190,8 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         plc = plc.with_tolerance(tolerance)
     dimension = plc.dimension
     surface: Optional[Dict[str, Any]] = None
+    if surface_tolerance is not None and len(periodic) > 0:
+        raise usage("periodic and surface_tolerance exclude each other")
     if surface_tolerance is not None:
         wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
         plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted)
