@@ -4,9 +4,13 @@
 // pgdr check: the verdict of the independent checker on a mesh file.
 #include "pgdr/check.hpp"
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bodies.hpp"
 #include "bounds.hpp"
@@ -85,6 +89,23 @@ void fill(Report& report, const OutputMesh<D>& mesh, const Bounds<D>& bounds, co
   report.set("verdict", r.exit_code());
   report.set("finding_count", r.finding_count);
   report.set("findings", to_json(r.findings));
+}
+
+/// The cells that are not Delaunay, for --list-not-delaunay: all in the report, the first in words.
+template <int D>
+void list_not_delaunay(const OutputMesh<D>& mesh, bool quiet, Report& report) {
+  constexpr std::size_t most_rows = 20;
+  const std::vector<NotDelaunayCell> found = cells_not_delaunay(mesh);
+  std::vector<std::array<std::uint32_t, 2>> cells;
+  for (const NotDelaunayCell& c : found) cells.push_back({c.cell, c.vertex});
+  report.set("not_delaunay_cells", JsonObject{{"count", cells.size()}, {"cells", cells}});
+  if (quiet) return;
+  print_row("delaunay", cells.empty()
+                            ? "all cells are, but for what is beyond " + std::string(D == 3 ? "subfacets" : "subsegments")
+                            : count(cells.size(), "cell is not", "cells are not"));
+  for (std::size_t i = 0; i < std::min(cells.size(), most_rows); ++i)
+    print_row("", format("cell %u has vertex %u inside its circumsphere", cells[i][0], cells[i][1]));
+  if (cells.size() > most_rows) print_row("", count(cells.size() - most_rows, "more", "more"));
 }
 
 template <int D>
@@ -191,6 +212,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   options.largest_cosine = reported.largest_cosine.value_or(1);
   if (bounds.min_dihedral) options.largest_cosine = claimed_cosine(*bounds.min_dihedral);
   options.delaunay = a.delaunay || reported.delaunay;
+  options.conforming_delaunay = a.conforming_delaunay || reported.conforming_delaunay;
   options.not_delaunay_left = reported.not_delaunay_left;
   options.regions = a.regions.value_or(reported.regions);
   options.keep_boundary = a.kept.any() || reported.keep_boundary;
@@ -210,6 +232,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   std::optional<QualitySummary> quality;  // of a mesh whose numbers can be used at all
   if (verdict.count(CheckFinding::Kind::bad_index) + verdict.count(CheckFinding::Kind::not_finite) == 0)
     quality = summarize_quality(mesh);
+  if (a.list_not_delaunay && quality) list_not_delaunay(mesh, a.quiet, report);
   if (in_step.failure) report.add_error(*in_step.failure);
   if (!periodic.empty()) in_step.failure ? report.set("periodic", nullptr) : set_periodic(report, in_step.pairs);
   const std::size_t unused = unused_points(mesh).size();

@@ -129,6 +129,7 @@ class MeshRun {
       report_.set("region_areas", a_.reading.region_areas);
     }
     report_.set("region_mode", name(a_.regions, a_.reading.bodies));
+    if (options_.conforming_delaunay) report_.set("conforming_delaunay", true);
     seconds_.mesh_at = total_.seconds();
     seconds_.read = seconds_.mesh_at - seconds_.read_at;
   }

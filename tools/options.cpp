@@ -272,6 +272,10 @@ void add_check(CLI::App& app, CheckArguments& a) {
   add_bounds(app, a.bounds, "that of the report of --reasons; none without one", "likewise");
   app.add_flag("--delaunay", a.delaunay,
                "ask for a Delaunay mesh, also where the report of --reasons does not say that it is one");
+  app.add_flag("--conforming-delaunay", a.conforming_delaunay,
+               "2D: likewise across segments, and with circumcentres in the domain, as of mesh --conforming-delaunay");
+  app.add_flag("--list-not-delaunay", a.list_not_delaunay,
+               "list the cells with a vertex inside their circumsphere across a face that is no subfacet; changes no verdict");
   add_input(app, a.reading);
   add_regions(app, a.regions, a.reading.bodies);
   add_kept(app, a.kept, "the boundary was to be kept: no points on it that were not given, and each given triangle is there");

@@ -108,6 +108,8 @@ struct CheckArguments {
   std::vector<std::string> periodic;  ///< as of `mesh`; empty: as `reasons` says
   std::string reasons;                ///< a report of `mesh`
   bool delaunay = false;              ///< is it to be Delaunay?
+  bool conforming_delaunay = false;   ///< 2D: across subsegments, too
+  bool list_not_delaunay = false;     ///< the cells that are not
   std::string report;
   bool quiet = false;
 };

@@ -273,6 +273,7 @@ ReportedBounds read_bounds(const std::string& file) {
     read.remeshed = holds("remeshed", true);
     read.required = report.value("required", std::vector<std::string>{});
     read.delaunay = holds("delaunay", true);
+    read.conforming_delaunay = read.refined && holds("conforming_delaunay", true);
     if (const nlohmann::json::json_pointer left("/quality/not_delaunay/refused"); report.contains(left))
       read.not_delaunay_left = report.at(left).get<std::uint64_t>();
     if (const auto o = report.find("optimization"); o != report.end() && o->is_object())

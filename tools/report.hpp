@@ -77,6 +77,7 @@ struct ReportedBounds {
   std::optional<double> tolerance;       ///< Domain::tolerance
   std::optional<double> largest_cosine;  ///< of dihedral angles, as the optimiser claims it
   bool delaunay = false;                 ///< does the report say that the mesh is?
+  bool conforming_delaunay = false;      ///< 2D: and conforming
   std::uint64_t not_delaunay_left = 0;   ///< faces that it says are not locally Delaunay, other than by rounding
   bool resolve_crossings = false;        ///< what was done to the input
   std::optional<SharedMarker> markers;   ///< 3D, where that was done

@@ -11,6 +11,7 @@
 
 #include "check/bounds.hpp"
 #include "check/kept.hpp"
+#include "check/not_delaunay.hpp"
 #include "given/volumes.hpp"
 #include "nearness/nearness.hpp"
 #include "nearness/own_walls.hpp"
@@ -86,9 +87,12 @@ template <int D>
 void check_shapes(const OutputMesh<D>& mesh, const CheckOptions<D>& options, const Links<D>& links, const Components& components,
                   const InputVolumes<D>* volumes, NamedEntities<D>* named, Findings& findings) {
   Reasons<D> reasons(mesh, options, links, named, findings);
-  if (options.delaunay)
-    check_delaunay<D>(mesh, links, slack_of_vertices(mesh, options.conformity_ulps), reasons.vertices_at_refused(),
-                      options.not_delaunay_left, findings);
+  if (options.delaunay || options.conforming_delaunay) {
+    const std::vector<double> slack = slack_of_vertices(mesh, options.conformity_ulps);
+    check_delaunay<D>(mesh, links, slack, reasons.vertices_at_refused(), options.not_delaunay_left, findings);
+    if constexpr (D == 2)
+      if (options.conforming_delaunay) check_conforming(mesh, links, slack, findings);
+  }
   check_bounds(mesh, options, links, components, volumes, reasons, findings);
 }
 
@@ -172,6 +176,8 @@ void check_against_surface(const OutputMesh<3>& mesh, const CheckOptions<3>& opt
 
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options) {
+  if (D == 3 && options.conforming_delaunay)
+    throw UsageError({.code = Errc::bad_option, .message = "conforming Delaunay meshes are of 2D"});
   CheckReport report;
   Findings findings(report, options.max_listed, options.stop);
   if (!check_indices(mesh, findings)) return report;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 
+#include "given/findings.hpp"
+#include "given/links.hpp"
 #include "pgdr/check.hpp"
 
 namespace pgdr::checking {
@@ -15,5 +17,9 @@ namespace pgdr::checking {
 ///   nowhere else, as rounding has moved points off their entities there.
 template <int D>
 NotDelaunay count_among(const OutputMesh<D>& mesh, std::span<const double> slack, bool everywhere, std::size_t own);
+
+/// CheckOptions::conforming_delaunay, but for faces that are no subsegments, of which check_delaunay() tells.
+/// @param slack  of each vertex, as slack_of_vertices() has it
+void check_conforming(const OutputMesh<2>& mesh, const Links<2>& links, std::span<const double> slack, Findings& findings);
 
 }  // namespace pgdr::checking

@@ -158,6 +158,13 @@ struct CheckOptions {
   /// Must faces be locally Delaunay, but for what rounding or a refused split (in `reasons`) explains? DEFAULT: false.
   bool delaunay = false;
 
+  /// 2D: must it be conforming Delaunay (RefineOptions::conforming_delaunay)? Then faces must be locally Delaunay as with
+  /// `delaunay`, across subsegments, too, and no edge of a single triangle has its third vertex inside its diametral circle. So
+  /// no vertex that is not beyond the outside or a void lies inside the circumcircle of any triangle, and all circumcentres lie
+  /// in the domain. Rounding explains what it does for `delaunay`; no reason, and nothing that is said to be left, does at
+  /// subsegments. DEFAULT: false. REQUIRES: 2D.
+  bool conforming_delaunay = false;
+
   /// So many faces are said to be left that are not locally Delaunay, other than by rounding (NotDelaunay::other). As long as
   /// there are no more, those beside no refused split are `not_delaunay_unexplained`, and else findings. DEFAULT: 0. Without
   /// `delaunay` it has no effect.
@@ -251,11 +258,24 @@ struct NotDelaunay {
 template <int D>
 NotDelaunay count_not_delaunay(const OutputMesh<D>& mesh, bool everywhere = true);
 
+/// A cell that is not Delaunay, and the vertex that says so.
+struct NotDelaunayCell {
+  std::uint32_t cell;    ///< its row
+  std::uint32_t vertex;  ///< the row of one that lies strictly inside its circumsphere, of its neighbour across a face
+};
+/// The cells with a vertex strictly inside their circumsphere across a face that is no subfacet (2D: subsegment), exactly, each
+/// once, in their order. What lies beyond subfacets does not count, as in constrained Delaunay meshes. By the Delaunay lemma of
+/// these the mesh is constrained Delaunay if and only if there are none; if there are some, others may have vertices that are
+/// farther away inside. Linear time, on the calling thread; any thread.
+/// @pre a sound mesh, e.g. one that `refine` made
+template <int D>
+std::vector<NotDelaunayCell> cells_not_delaunay(const OutputMesh<D>& mesh);
+
 /// Runs all checks for which `options` has the data. Bad indices and coordinates that are not finite end it early.
 /// About 5 microseconds a cell, on the calling thread.
 /// @throws UsageError bad_size if a size function returns a value that is not positive, bad_option if no cell has the label
-///   of a region size (but 0); InputError index_out_of_range, not_finite of the input; CancelledError some hundredths of a second
-///   after CheckOptions::stop is requested, from any thread; ResourceError.
+///   of a region size (but 0), or for conforming_delaunay in 3D; InputError index_out_of_range, not_finite of the input;
+///   CancelledError some hundredths of a second after CheckOptions::stop is requested, from any thread; ResourceError.
 template <int D>
 CheckReport check(const OutputMesh<D>& mesh, const CheckOptions<D>& options);
 

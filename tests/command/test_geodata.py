@@ -193,6 +193,7 @@ class Conforming(Case):
             self.mesh(self.file("a.poly", text), "--conforming-delaunay", "--threads", threads, *flags, expect=None)
             made.append(self.output.read_bytes())
         self.assertEqual(made[0], made[1])
+        self.pgdr("check", self.output, "--input", self.folder / "a.poly", "--conforming-delaunay", expect=0)
         return Mesh(self.output)
 
     def assert_delaunay(self, mesh):
@@ -237,6 +238,36 @@ class Conforming(Case):
         self.mesh(self.folder / "a.poly", "--radius-edge", "1e300")
         with self.assertRaises(AssertionError):
             self.assert_delaunay(Mesh(self.output))
+        self.pgdr("check", self.output, "--input", self.folder / "a.poly", expect=0)
+        self.pgdr("check", self.output, "--conforming-delaunay", "--report", self.report, expect=6)
+        kinds = {finding["kind"] for finding in self.json()["findings"]}
+        self.assertEqual(kinds, {"not_delaunay"})
+
+    def test_the_report_says_so(self):
+        """A report of --conforming-delaunay asks for it, of another mesh, too; not of a run that did not end. 3D has none."""
+        text = self.poly([(0, 0), (10, 0), (10, 1), (0, 1), (5.0, 0.1)], [(1, 2), (2, 3), (3, 4), (4, 1)])
+        self.output = self.folder / "out.mesh"
+        self.mesh(self.file("a.poly", text), "--radius-edge", "1e300", "--conforming-delaunay", "--report", self.report)
+        self.assertIs(self.json()["conforming_delaunay"], True)
+        self.pgdr("check", self.output, "--input", self.folder / "a.poly", "--reasons", self.report, expect=0)
+        plain = self.folder / "plain.mesh"
+        self.pgdr("mesh", self.folder / "a.poly", "--radius-edge", "1e300", "-o", plain)
+        self.pgdr("check", plain, "--input", self.folder / "a.poly", "--reasons", self.report, expect=6)
+        cube = self.folder / "cube.mesh"
+        self.pgdr("mesh", BRACKET, "-o", cube)
+        self.pgdr("check", cube, "--conforming-delaunay", expect=2)
+
+    def test_cells_that_are_not_delaunay(self):
+        """A list in words and in the report; the optimiser leaves some, and the refinement none."""
+        for flags, is_any in (((), True), (("--no-optimize",), False)):
+            mesh = self.folder / "bracket.mesh"
+            self.pgdr("mesh", BRACKET, "--radius-edge", "2", "-o", mesh, *flags)
+            said = self.pgdr("check", mesh, "--list-not-delaunay", "--report", self.report, expect=0).stdout
+            listed = self.json()["not_delaunay_cells"]
+            self.assertEqual(listed["count"], len(listed["cells"]))
+            self.assertEqual(len({cell for cell, _ in listed["cells"]}), listed["count"])
+            self.assertEqual(listed["count"] > 0, is_any)
+            self.assertIn("inside its circumsphere" if is_any else "all cells are", said)
 
     def test_small_angles(self):
         for degrees in (50.0, 30.0, 10.0, 3.0, 0.5):

@@ -4,6 +4,7 @@
 import os
 import tempfile
 import unittest
+from fractions import Fraction
 
 import numpy as np
 
@@ -21,6 +22,44 @@ def random_plc(seed):
     inner = inner @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]
     segments = [[0, 1], [1, 2], [2, 3], [3, 0]] + [[4 + 2 * i, 5 + 2 * i] for i in range(5)]
     return pgdr.resolve_crossings(pgdr.Plc(np.concatenate([frame, inner]), segments))[0]
+
+
+def solid(**options):
+    rng = np.random.default_rng(2)
+    points = np.concatenate([[[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], 0.05 + 0.9 * rng.random((12, 3))])
+    facets = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    return pgdr.mesh(pgdr.Plc(points, facets=facets), **options)
+
+
+def determinant(rows):
+    """By fractions; zero columns do not come."""
+    if len(rows) == 1:
+        return rows[0][0]
+    return sum((-1) ** i * row[0] * determinant([r[1:] for r in rows[:i] + rows[i + 1:]]) for i, row in enumerate(rows) if row[0])
+
+
+def inside_sphere(corners, p):
+    """Strictly inside the circumsphere of a simplex, by exact arithmetic."""
+    rows = [[Fraction(a) - Fraction(b) for a, b in zip(corner, p)] for corner in corners]
+    edges = [[Fraction(a) - Fraction(b) for a, b in zip(corner, corners[0])] for corner in corners[1:]]
+    side = determinant([row + [sum(x * x for x in row)] for row in rows]) * determinant(edges)
+    return side > 0 if len(p) == 2 else side < 0
+
+
+def not_conforming(r):
+    """Is a vertex well inside of a circumcircle across an edge, or of the diametral circle of an edge of the boundary?"""
+    for corners, beyond in zip(r.cells.tolist(), r.neighbors().tolist()):
+        for i, other in enumerate(beyond):
+            a, b, x = (r.points[corners[(i + k) % 3]] for k in (1, 2, 0))
+            if other < 0 and np.dot(a - x, b - x) < -1e-12:
+                return True
+            if other >= 0:
+                apex = next(v for v in r.cells[other].tolist() if v not in corners)
+                y = r.points[apex]
+                angles = [np.arccos(np.dot(a - z, b - z) / np.linalg.norm(a - z) / np.linalg.norm(b - z)) for z in (x, y)]
+                if sum(angles) > np.pi + 1e-9:
+                    return True
+    return False
 
 
 class Conforming(unittest.TestCase):
@@ -49,6 +88,44 @@ class Conforming(unittest.TestCase):
                     r = pgdr.mesh(plc, conforming_delaunay=True, **bounds)
                     self.assertTrue(r.check(plc))
                     self.assert_cells(r, r.voronoi(), 1)
+
+    def test_what_the_checker_says(self):
+        """As exact arithmetic does, edge by edge: of meshes with it, and of meshes without."""
+        refused = 0
+        for seed in range(6):
+            plc = random_plc(seed)
+            conforming = pgdr.mesh(plc, radius_edge=float("inf"), conforming_delaunay=True)
+            self.assertTrue(conforming.check(plc))
+            plain = pgdr.mesh(plc, radius_edge=float("inf"))
+            self.assertTrue(plain.check(plc))
+            self.assertEqual(len(plain.not_delaunay()), 0)
+            report = plain.check(plc, conforming_delaunay=True)
+            self.assertEqual(not report, not_conforming(plain))
+            self.assertTrue(all(f.kind == "not_delaunay" for f in report.findings))
+            refused += not report
+        self.assertGreater(refused, 2)
+        with self.assertRaises(pgdr.UsageError):
+            pgdr.check(solid(), conforming_delaunay=True)
+
+    def test_cells_that_are_not_delaunay(self):
+        """All cells with the vertex of a neighbour inside, across a face that is no subfacet, by exact arithmetic."""
+        for optimize in (True, False):
+            r = solid(optimize=optimize)
+            walls = {tuple(sorted(f)) for f in r.subfacets.tolist()}
+            wanted = set()
+            for cell, (corners, beyond) in enumerate(zip(r.cells.tolist(), r.neighbors().tolist())):
+                for i, other in enumerate(beyond):
+                    face = corners[:i] + corners[i + 1:]
+                    if other < 0 or tuple(sorted(face)) in walls:
+                        continue
+                    apex = next(v for v in r.cells[other].tolist() if v not in face)
+                    if inside_sphere(r.points[corners].tolist(), r.points[apex].tolist()):
+                        wanted.add(cell)
+            found = r.not_delaunay()
+            self.assertEqual(found[:, 0].tolist(), sorted(wanted))
+            self.assertEqual(len(wanted) > 0, optimize)
+            for cell, vertex in found.tolist():
+                self.assertTrue(inside_sphere(r.points[r.cells[cell]].tolist(), r.points[vertex].tolist()))
 
     def test_what_it_is_for(self):
         """A mesh without it has no such cells, where a segment has an obtuse angle before it."""

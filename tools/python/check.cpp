@@ -63,6 +63,7 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     options.seed_sizes = seed_sizes;
     options.largest_cosine = largest_cosine;
     options.delaunay = delaunay;
+    options.conforming_delaunay = bounds.conforming_delaunay;
     options.not_delaunay_left = not_delaunay_left;
     options.keep_boundary = bounds.keep_boundary;
     options.kept_markers = bounds.kept_markers;
@@ -72,6 +73,20 @@ py::dict check_mesh(const MeshData<D>& data, const Plc<D>* plc, const RefineOpti
     report = check(data.mesh, options);
   });
   return dict_of(report);
+}
+
+/// (k, 2) cells and vertices: cells_not_delaunay().
+template <int D>
+py::array not_delaunay_of(const MeshData<D>& data) {
+  std::vector<std::int64_t> rows;
+  run_watched([&](const std::stop_token&) {
+    for (const NotDelaunayCell& c : cells_not_delaunay(data.mesh)) {
+      rows.push_back(c.cell);
+      rows.push_back(c.vertex);
+    }
+  });
+  const auto count = static_cast<py::ssize_t>(rows.size() / 2);
+  return own(std::move(rows), {count, 2});
 }
 
 /// A list of (kind, count, is_error, [(Diagnostic, measure)]).
@@ -108,6 +123,7 @@ std::vector<std::string> cures(const Plc<D>& plc) {
 template <int D>
 void bind(py::module_& module) {
   module.def(with_dimension<D>("check").c_str(), &check_mesh<D>);
+  module.def(with_dimension<D>("not_delaunay").c_str(), &not_delaunay_of<D>);
   module.def(with_dimension<D>("diagnose").c_str(), &diagnose_plc<D>);
   module.def(with_dimension<D>("cures").c_str(), &cures<D>);
 }

@@ -23,7 +23,8 @@ _BOUNDS = ("min_angle", "radius_edge", "size", "region_sizes", "min_dihedral", "
 
 
 @door
-def check(mesh: Mesh, plc: Union[None, Plc, Mesh] = None, *, delaunay: Optional[bool] = None, reasons: bool = True,
+def check(mesh: Mesh, plc: Union[None, Plc, Mesh] = None, *, delaunay: Optional[bool] = None,
+          conforming_delaunay: Optional[bool] = None, reasons: bool = True,
           surface_tolerance: Union[None, float, str] = None, feature_angle: float = 40.0,
           keep_boundary: Union[None, bool, Sequence[int]] = None, required: Optional[npt.ArrayLike] = None,
           **bounds: Any) -> CheckReport:
@@ -42,6 +43,9 @@ def check(mesh: Mesh, plc: Union[None, Plc, Mesh] = None, *, delaunay: Optional[
         With a mesh as input: which of its points are to be points of this one.
     delaunay : bool, optional
         Are faces to be locally Delaunay? None: if the run that made the mesh says so.
+    conforming_delaunay : bool, optional
+        2D: are triangles to be Delaunay across segments, too, and their circumcentres in the domain? None: if the mesh was made so.
+        `Mesh.not_delaunay` lists cells that are not Delaunay.
     reasons : bool
         False: no cell has an excuse.
     surface_tolerance : float or str, optional
@@ -88,6 +92,8 @@ def check(mesh: Mesh, plc: Union[None, Plc, Mesh] = None, *, delaunay: Optional[
     cosine = _pgdr.claimed_cosine(float(bounds["min_dihedral"])) if bounds.get("min_dihedral") else 1.0
     if delaunay is None:
         delaunay = bool(mesh.statistics.get("delaunay", False))
+    made_so = bool(mesh._facts.get("conforming_delaunay", False))
+    options.conforming_delaunay = made_so if conforming_delaunay is None else _arguments.flag("conforming_delaunay", conforming_delaunay)
     surface = _surface_tolerance(surface_tolerance, plc)
     angle = float(feature_angle)
     if not 0 <= angle <= 180:

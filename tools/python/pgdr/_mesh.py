@@ -180,6 +180,11 @@ class Mesh:
         """(m, D + 1) the cell beyond the face opposite each vertex; -1: none. Linear time."""
         return self._core.neighbors()
 
+    def not_delaunay(self) -> npt.NDArray[np.int64]:
+        """(k, 2) the cells with a vertex strictly inside their circumsphere across a face that is no subfacet (2D: subsegment), and such
+        a vertex; exact. What is beyond subfacets does not count; none: the mesh is constrained Delaunay. Linear time."""
+        return (_pgdr.not_delaunay2 if self.dimension == 2 else _pgdr.not_delaunay3)(self._core)
+
     def edges(self) -> npt.NDArray[np.int32]:
         """(k, 2) all edges, each once, the smaller row first, sorted. n log n."""
         return _arguments.signed(self._core.edges())

@@ -245,6 +245,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
             made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
     if kept:
         made._facts["kept_boundary"] = kept
+    made._facts["conforming_delaunay"] = conforming_delaunay and made.stop == "finished"
     if asked is not None and not asked.was_called:
         _say_unasked(made, options)
     return made
