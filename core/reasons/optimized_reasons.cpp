@@ -161,43 +161,61 @@ std::optional<DomainReason> OptimizedReasons::angle_near(CellId c) {
   return found;
 }
 
-/// A kept entity that stands in the way of a better cell: one that two corners of the cell lie on, if there is any, as for a
-/// dihedral angle it has to be; else, among those at ever more cells round it, the first beside its circumball.
+/// A kept segment that the cell has an edge on, or a kept facet on which two of its corners lie: what a dihedral angle below the
+/// bound has to be at. A segment with points of its own is none: it was to be kept, but for a point that could not be taken off.
+std::optional<DomainReason> OptimizedReasons::kept_at(CellId c) const {
+  const auto& v = mesh_->cell(c).vertices;
+  const auto is_given = [&](VertexId x) { return mesh_->vertex(x).home.kind() == EntityKind::vertex; };
+  const auto reason = [](EntityRef e) { return DomainReason{PoorReason::Code::kept_boundary, {e, {}}, 0}; };
+  const auto* constraints = mesh_->constraints(c);
+  for (int e = 0; constraints && e < edge_count(3); ++e) {
+    if (!constraints->has_edge(e)) continue;
+    const EntityRef segment{EntityKind::segment, constraints->edge_entity[e]};
+    const auto ends = ends_of_edge(v, e);
+    if (kept_->has(segment) && is_given(ends[0]) && is_given(ends[1])) return reason(segment);
+  }
+  std::vector<EntityId> of_others, of_corner;
+  for (const VertexId x : v) {
+    if (!is_given(x)) continue;
+    of_corner.clear();
+    for (const EntityId s : segments_at_[mesh_->vertex(x).home.id()])
+      for (const EntityId f : domain_->facets_of_segment(s))
+        if (kept_->has({EntityKind::facet, f})) of_corner.push_back(f);
+    for (const EntityId f : of_corner)
+      if (std::find(of_others.begin(), of_others.end(), f) != of_others.end()) return reason({EntityKind::facet, f});
+    of_others.insert(of_others.end(), of_corner.begin(), of_corner.end());
+  }
+  return {};
+}
+
+/// A kept entity that stands in the way of a better cell: among those at ever more cells round it, the first beside its
+/// circumball.
 std::optional<DomainReason> OptimizedReasons::kept_near(CellId c) {
-  constexpr std::size_t most_at = 64;  // cells, the entities at which may have two corners of the cell
   const Ball<3> doubled = doubled_circumball<3>(mesh_->simplex(c));
-  std::optional<EntityRef> beside;
   std::vector<EntityRef> known;
-  const auto has_edge_of_cell = [&](EntityRef e) {
-    const auto& v = mesh_->cell(c).vertices;
-    return std::count_if(v.begin(), v.end(), [&](VertexId x) { return lies_on<3>(*domain_, mesh_->vertex(x).home, e); }) >= 2;
-  };
-  const auto is_at = [&](EntityRef e) {
+  const auto is_beside_cell = [&](EntityRef e) {
     if (!kept_->has(e) || std::find(known.begin(), known.end(), e) != known.end()) return false;
     known.push_back(e);
-    if (!is_beside<3>(*domain_, e, doubled)) return false;
-    const bool at = has_edge_of_cell(e);
-    if (at || !beside) beside = e;
-    return at;
+    return is_beside<3>(*domain_, e, doubled);
   };
-  const auto any_at = [&](const ConstraintRecord<3>& k) {
+  const auto first_of = [&](const ConstraintRecord<3>& k) -> std::optional<EntityRef> {
     for (int f = 0; f < 4; ++f)
-      if (k.has_face(f) && is_at({EntityKind::facet, k.face_entity[f]})) return true;
-    for (int e = 0; e < 6; ++e)
-      if (k.has_edge(e) && is_at({EntityKind::segment, k.edge_entity[e]})) return true;
-    return false;
+      if (const EntityRef e{EntityKind::facet, k.face_entity[f]}; k.has_face(f) && is_beside_cell(e)) return e;
+    for (int e = 0; e < edge_count(3); ++e)
+      if (const EntityRef s{EntityKind::segment, k.edge_entity[e]}; k.has_edge(e) && is_beside_cell(s)) return s;
+    return {};
   };
   std::vector<CellId>& cells = cells_near_;
   cells.assign(1, c);
   known_cells_.reset(most_cells_near);
   known_cells_.insert(index(c));
-  for (std::size_t i = 0; i < cells.size() && !(beside && i > most_at); ++i) {
-    if (const auto* k = mesh_->constraints(cells[i]); k && any_at(*k)) break;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (const auto* k = mesh_->constraints(cells[i]))
+      if (const auto found = first_of(*k)) return DomainReason{PoorReason::Code::kept_boundary, {*found, {}}, 0};
     for (const Link link : mesh_->cell(cells[i]).links)
       if (link && cells.size() < most_cells_near && known_cells_.insert(index(link.cell()))) cells.push_back(link.cell());
   }
-  if (!beside) return {};
-  return DomainReason{PoorReason::Code::kept_boundary, {*beside, {}}, 0};
+  return {};
 }
 
 std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, PoorReason::Code otherwise,
@@ -218,7 +236,7 @@ std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, 
       if (!reason && bounds_->radius_edge_bound < smallest_proved_bound<3>())
         reason = DomainReason{PoorReason::Code::beyond_theory, {}, 0};
     }
-    if (!reason && kept_->any()) reason = kept_near(c);
+    if (!reason && kept_->any()) reason = below ? kept_at(c) : kept_near(c);
     found.push_back({c, true, verdict.over_size > 0, reason.value_or(DomainReason{otherwise, {}, 0}), false});
   }
   return found;

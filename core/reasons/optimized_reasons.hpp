@@ -41,6 +41,7 @@ class OptimizedReasons {
   std::optional<DomainReason> corner_of_cell(CellId c);
   std::optional<DomainReason> gap_at_corner(CellId c);
   std::optional<DomainReason> angle_near(CellId c);
+  std::optional<DomainReason> kept_at(CellId c) const;
   std::optional<DomainReason> kept_near(CellId c);
   const std::vector<Pair>& segments_sharp_at(EntityId point);
   const std::vector<Pair>& facets_sharp_at(EntityId segment);
