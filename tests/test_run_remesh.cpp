@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "dimensions.hpp"
 #include "pgdr/check.hpp"
@@ -77,6 +79,55 @@ TYPED_TEST(Remesh, AttributesAndRequiredVertices) {
   EXPECT_EQ(checked<D>(bare, old, how.required, options).exit_code(), 6);
   how.required.pop_back();
   EXPECT_THROW(remesh<D>(old, options, how), UsageError);
+}
+
+/// The facets (2D: segments) of the mesh, by the places of their corners.
+template <int D>
+std::set<std::array<std::array<double, D>, D>> facets_of(const OutputMesh<D>& mesh) {
+  std::set<std::array<std::array<double, D>, D>> all;
+  const auto add = [&](const auto& facets) {
+    for (const auto& f : facets) {
+      std::array<std::array<double, D>, D> corners;
+      for (std::size_t i = 0; i < D; ++i) corners[i] = mesh.points[f.vertices[i]].x;
+      std::sort(corners.begin(), corners.end());
+      all.insert(corners);
+    }
+  };
+  if constexpr (D == 2)
+    add(mesh.subsegments);
+  else
+    add(mesh.subfacets);
+  return all;
+}
+
+/// By the option of the run as by that of the input: finer and coarser inside, of facets that have points of their own.
+TYPED_TEST(Remesh, TheBoundaryIsKept) {
+  constexpr int D = TypeParam::value;
+  RefineOptions<D> options;
+  options.size = D == 2 ? 0.005 : 0.25;
+  const OutputMesh<D> old = refine(unit<D>(), options).mesh;
+  ASSERT_GT(facets_of<D>(old).size(), 20u);
+  options.keep_boundary = true;
+  std::vector<std::size_t> cells;
+  for (const double size : D == 2 ? std::array{0.001, 0.05} : std::array{0.15, 0.6}) {
+    options.size = size;
+    const RefineResult<D> made = remesh<D>(old, options);
+    EXPECT_EQ(facets_of<D>(made.mesh), facets_of<D>(old));
+    EXPECT_EQ(made.statistics.boundary_points, 0u);
+    const MeshBoundary<D> boundary = boundary_with_vertices<D>(old, {});
+    CheckOptions<D> check_options;
+    check_options.input = &boundary.plc;
+    check_options.required_points = required_points<D>(boundary, {});
+    check_options.radius_edge_bound = options.radius_edge_bound;
+    check_options.size = size;
+    check_options.delaunay = made.delaunay;
+    check_options.reasons = &made.reasons;
+    check_options.keep_boundary = true;
+    const CheckReport report = check(made.mesh, check_options);
+    EXPECT_LE(report.exit_code(), 1) << (report.findings.empty() ? "" : report.findings.front().message);
+    cells.push_back(made.mesh.cells.size());
+  }
+  EXPECT_GT(cells[0], cells[1]);
 }
 
 TYPED_TEST(Remesh, AllVerticesStayAndCellsHaveTheirBounds) {
