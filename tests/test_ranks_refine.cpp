@@ -15,6 +15,7 @@
 
 #include "local_ranks.hpp"
 #include "parallel_support.hpp"
+#include "pgdr/kept_edges.hpp"
 #include "ranks/numbering.hpp"
 #include "ranks/values.hpp"
 
@@ -98,6 +99,17 @@ TEST(RefineOnRanks, PiecesAreTheMeshOfOneProcess) {
   RefineOptions<3> unimproved = options_for<3>(0.1);
   unimproved.min_dihedral = 0;
   expect_pieces_of_the_same_mesh<3>(test::turned(test::two_region_cube()), unimproved);
+}
+
+/// All ranks make the whole of it, by the schedule that they would else share, too.
+TEST(RefineOnRanks, AKeptSurfaceIsThatOfOneProcess) {
+  const Plc<3> plc = with_kept_edges(test::turned(test::triangles_of(test::l_block())), {});
+  for (const Schedule schedule : {Schedule::reproducible, Schedule::uniform}) {
+    RefineOptions<3> options = options_for<3>(0.2);
+    options.schedule.schedule = schedule;
+    options.keep_boundary = true;
+    expect_pieces_of_the_same_mesh<3>(plc, options);
+  }
 }
 
 /// Of meshes whose points, or those on the boundary alone, have been moved a little, so that many faces are not locally Delaunay,

@@ -281,7 +281,9 @@ DistributedResult<D> refine(Transport& transport, const Plc<D>& plc, const Refin
   }
   DistributedResult<D> result;
   OwnVisits visits;
-  if (options.schedule.schedule == Schedule::uniform) {
+  // A part of a surface that is kept cannot be recovered, nor its points be withdrawn, without the rest: all make all of it.
+  const bool is_kept_surface = D == 3 && options.keep_boundary;
+  if (options.schedule.schedule == Schedule::uniform && !is_kept_surface) {
     result = SharedRun<D>(ranks).run(plc, own, visits);
   } else {
     RefineResult<D> run = ranks.together([&] { return refine(plc, own); });

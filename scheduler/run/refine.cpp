@@ -485,7 +485,6 @@ template <int D>
 RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, const RunHooks<D>& hooks) {
   const DefaultFloats floats;
   validate(options);
-  if (D == 3 && options.keep_boundary) bad_option("the boundary cannot be kept on ranks; run one process");
   return prepare_and_run<D>(plc, options, Clock::now(), &hooks);
 }
 
