@@ -137,7 +137,7 @@ void add_report(CLI::App& app, std::string& report, bool& quiet) {
 
 void add_output(CLI::App& app, MeshArguments& a) {
   app.add_option("-o,--output", a.output,
-                 "the mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem .vtk, or a folder polyMesh")
+                 "the mesh: .vtu .pvtu .vtk .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
       ->required()
       ->type_name("OUTPUT");
   app.add_option("--pieces", a.pieces, ".pvtu: in so many files, X_0.vtu, X_1.vtu, ... (default: 1)")
@@ -245,26 +245,26 @@ void add_run(CLI::App& app, MeshArguments& a) {
 
 void add_mesh(CLI::App& app, MeshArguments& a) {
   app.add_option("INPUT", a.inputs,
-                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; several files are one input")
+                 "what to mesh: .poly .smesh .node .off .obj .ply .stl .mesh .msh .vtk .geojson; several files are one input")
       ->required()
       ->type_name("");
   add_run(app, a);
 }
 
 void add_remesh(CLI::App& app, MeshArguments& a) {
-  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->expected(1)->type_name("");
+  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .vtk .msh .mesh .node .ele")->required()->expected(1)->type_name("");
   add_remesh_options(app, a);
   add_run(app, a);
 }
 
 void add_refine(CLI::App& app, MeshArguments& a) {
-  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->expected(1)->type_name("");
+  app.add_option("MESH", a.inputs, "the mesh: .vtu .pvtu .vtk .msh .mesh .node .ele")->required()->expected(1)->type_name("");
   add_refine_options(app, a);
   add_run(app, a);
 }
 
 void add_check(CLI::App& app, CheckArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
+  app.add_option("MESH", a.mesh, "the mesh to check: .vtu .pvtu .vtk .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("--input", a.inputs,
                  "what it is a mesh of, as often as there are files, in their order; without it, conformity is not checked")
       ->type_name("INPUT")
@@ -303,12 +303,12 @@ void add_info(CLI::App& app, InfoArguments& a) {
 }
 
 void add_join(CLI::App& app, JoinArguments& a) {
-  app.add_option("MESH", a.meshes, "the meshes, two or more: .vtu .pvtu .msh .mesh .node .ele")
+  app.add_option("MESH", a.meshes, "the meshes, two or more: .vtu .pvtu .vtk .msh .mesh .node .ele")
       ->required()
       ->expected(2, std::numeric_limits<int>::max())
       ->type_name("");
   app.add_option("-o,--output", a.output,
-                 "the one mesh: .vtu .pvtu .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
+                 "the one mesh: .vtu .pvtu .vtk .msh .mesh .node .ele; for other programs also .inp .mfem, or a folder polyMesh")
       ->required()
       ->type_name("OUTPUT");
   app.add_flag("--relabel", a.relabel,

@@ -28,7 +28,7 @@ bool is_plane(const std::string& text) {
 }  // namespace
 
 void add_view(CLI::App& app, ViewArguments& a) {
-  app.add_option("MESH", a.mesh, "the mesh: .vtu .pvtu .msh .mesh .node .ele")->required()->type_name("");
+  app.add_option("MESH", a.mesh, "the mesh: .vtu .pvtu .vtk .msh .mesh .node .ele")->required()->type_name("");
   app.add_option("-o,--output", a.output, "the picture: .svg .png, or .html, a page that shows the mesh in any browser")
       ->required()
       ->type_name("PICTURE");

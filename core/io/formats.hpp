@@ -55,6 +55,9 @@ struct Want {
 };
 FileMesh read_medit(std::string_view text, const std::filesystem::path& file, Want want);
 FileMesh read_msh(std::string_view text, const std::filesystem::path& file, Want want);
+FileMesh read_vtk(std::string_view text, const std::filesystem::path& file, Want want);
+/// The point data and cell data that read_vtk() has no place for.
+std::vector<MeshField> read_vtk_fields(std::string_view text, const std::filesystem::path& file);
 
 /// @param left_out  how many nodes of cells of second order, which are no corners, the file has
 template <int D>

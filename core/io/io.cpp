@@ -58,6 +58,7 @@ using FileMeshReader = detail::FileMesh (*)(std::string_view, const Path&, detai
 FileMeshReader file_mesh_reader(const std::string& extension) {
   if (extension == ".mesh") return detail::read_medit;
   if (extension == ".msh") return detail::read_msh;
+  if (extension == ".vtk") return detail::read_vtk;
   return nullptr;
 }
 
@@ -68,7 +69,7 @@ bool is_tetgen_mesh(const std::string& extension) { return extension == ".node" 
 /// Written for other programs, and not read.
 bool is_for_others(const Path& file) {
   const std::string extension = lower_extension(file);
-  return extension == ".inp" || extension == ".mfem" || extension == ".vtk" || detail::is_foam_mesh(file);
+  return extension == ".inp" || extension == ".mfem" || detail::is_foam_mesh(file);
 }
 
 bool is_vtk(const std::string& extension) { return extension == ".vtu" || extension == ".pvtu"; }
@@ -145,7 +146,7 @@ OutputMesh<D> read_mesh_from(std::string_view bytes, const Path& name, FileTexts
     return mesh;
   }
   if (extension == ".pvtu") return read_pvtu<D>(bytes, name, beside);
-  unknown_format(name, "a mesh (.vtu .pvtu .msh .mesh .node .ele)");
+  unknown_format(name, "a mesh (.vtu .pvtu .vtk .msh .mesh .node .ele)");
 }
 
 template Plc<2> read_plc_from<2>(std::string_view, const Path&, FileTexts&&, const ReadOptions&);
@@ -159,8 +160,8 @@ namespace {
 
 template <int D>
 bool is_input_format(const std::string& extension) {
-  constexpr std::string_view formats[] = {".poly", ".node", ".mesh", ".msh", ".smesh", ".obj", ".off", ".ply", ".stl"};
-  constexpr std::ptrdiff_t in_2d = 4;
+  constexpr std::string_view formats[] = {".poly", ".node", ".mesh", ".msh", ".vtk", ".smesh", ".obj", ".off", ".ply", ".stl"};
+  constexpr std::ptrdiff_t in_2d = 5;
   if (is_geojson(extension)) return D == 2;
   const auto end = D == 2 ? std::begin(formats) + in_2d : std::end(formats);
   return std::find(std::begin(formats), end, extension) != end;
@@ -199,8 +200,10 @@ OutputMesh<D> InputFile::read_mesh() {
 }
 
 std::vector<MeshField> InputFile::read_fields() {
-  if (lower_extension(name_) != ".vtu") return {};
-  return guarded(name_, [&] { return detail::read_vtu_fields(texts_->of(name_), name_); });
+  const std::string extension = lower_extension(name_);
+  if (extension != ".vtu" && extension != ".vtk") return {};
+  const auto read = extension == ".vtu" ? detail::read_vtu_fields : detail::read_vtk_fields;
+  return guarded(name_, [&] { return read(texts_->of(name_), name_); });
 }
 
 const std::vector<Diagnostic>& InputFile::warnings() const { return texts_->warnings(); }
@@ -222,7 +225,8 @@ int InputFile::dimension() {
     if (extension == ".vtu") return detail::vtu_dimension(texts_->of(name_), name_);
     if (extension == ".pvtu") return detail::pvtu_dimension(texts_->of(name_), name_, *texts_);
     unknown_format(
-        name_, "a file that is read (.poly .smesh .node .off .obj .ply .stl .mesh .msh .geojson; meshes also .vtu .pvtu .ele)");
+        name_,
+        "a file that is read (.poly .smesh .node .off .obj .ply .stl .mesh .msh .vtk .geojson; meshes also .vtu .pvtu .ele)");
   });
 }
 

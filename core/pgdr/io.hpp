@@ -16,9 +16,9 @@
 // | .mesh                  | edges              | triangles, quads    | Medit       | Medit      |
 // | .msh                   | lines              | triangles, quads    | 2.x and 4.1 | 4.1 binary |
 // | .vtu .pvtu             |                    |                     | ours        | VTK XML    |
+// | .vtk                   | lines              | triangles, quads    | 1.0 to 5.1  | 3.0 text   |
 // | .inp                   |                    |                     |             | Abaqus     |
 // | .mfem                  |                    |                     |             | MFEM       |
-// | .vtk                   |                    |                     |             | VTK legacy |
 // | polyMesh (a folder)    |                    |                     |             | OpenFOAM   |
 //
 // docs/formats.md has what each format keeps. Choices that the formats leave open:
@@ -40,7 +40,10 @@
 // - .node, .ele: X.node, X.ele, X.face (3D, subfacets) and X.edge (subsegments), numbered from 1 unless WriteOptions say
 //   0, written all or none. The latter two may be missing when read. X.edge may have all edges, and X.neigh the
 //   neighbours of each cell.
-// - .mesh and .msh as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles and quadrilaterals) are dropped, with the
+// - .vtk: unstructured grids and polygonal data, as text or binary, with cell data "region" and "marker", and point data
+// "marker";
+//   other point and cell data are for `read_fields`.
+// - .mesh, .msh and .vtk as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles and quadrilaterals) are dropped, with the
 //   points that they alone have, but faces of simplices that bound them, or lie between labels, become facets where the file
 //   has none; labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if
 //   it has no cells of volume.
@@ -107,8 +110,8 @@ class PGDR_API InputFile {
   /// As the function. @throws as it does
   template <int D>
   OutputMesh<D> read_mesh();
-  /// Of a .vtu the arrays of point data and cell data that are not ours, points first, by name, without a "pgdr:" before it; of
-  /// other formats none. Ask before `read_mesh`, after which the file is read again. @throws as read_mesh
+  /// Of a .vtu or .vtk the arrays of point data and cell data that are not ours, points first, by name, without a "pgdr:" before
+  /// it; of other formats none. Ask before `read_mesh`, after which the file is read again. @throws as read_mesh
   std::vector<MeshField> read_fields();
   /// What the last read_plc() or read_mesh() left out: nodes of cells of second order, which are read by their corners.
   const std::vector<Diagnostic>& warnings() const;
@@ -139,7 +142,7 @@ inline std::string stream_name(const std::string& extension) { return "-" + exte
 
 /// Whether `read_mesh` and `write_mesh` know the extension. The file is not opened.
 bool is_mesh_format(const std::filesystem::path& file);
-/// Whether `write_mesh` knows it: these, and what is for other programs and is not read: .inp, .mfem, .vtk, a folder polyMesh.
+/// Whether `write_mesh` knows it: these, and what is for other programs and is not read: .inp, .mfem, a folder polyMesh.
 bool is_output_format(const std::filesystem::path& file);
 /// The files that `write_mesh` to this name replaces: itself, and with .node and .ele their family, with .pvtu its pieces; of a
 /// folder polyMesh the files in it.

@@ -7,6 +7,7 @@ import itertools
 import json
 import math
 import random
+import struct
 import subprocess
 import unittest
 from fractions import Fraction
@@ -321,7 +322,100 @@ class LegacyVtk(Case):
                 place = words.index(name)
                 self.assertEqual(words[place - 1], "SCALARS")
                 float(words[place + 5 + count - 1])
-        self.pgdr("info", self.output, expect=3)
+            self.pgdr("check", self.output, "--input", model, expect=0)
+
+    def binary(self, text):
+        """The same file with numbers as bytes, big-endian; and with offsets, as version 5.1 has them."""
+        codes = {"double": "d", "int": "i"}
+        old, new = b"", b""
+        lines = iter(text.split("\n")[:-1])
+
+        def numbers(n):
+            found = []
+            while len(found) < n:
+                found += next(lines).split()
+            return found
+
+        for line in lines:
+            words = line.split()
+            as_bytes = lambda code, values: struct.pack(f">{len(values)}{code}", *map(int if code in "iq" else float, values)) + b"\n"
+            both = lambda head, body=b"": ((head + "\n").encode() + body,) * 2
+            made = both(line.replace("ASCII", "BINARY").replace("3.0", "4.2"))
+            if words and words[0] == "POINTS":
+                made = both(line, as_bytes("d", numbers(3 * int(words[1]))))
+            elif words and words[0] == "CELL_TYPES":
+                made = both(line, as_bytes("i", numbers(int(words[1]))))
+                count = int(words[1])
+            elif words and words[0] == "CELL_DATA":
+                count = int(words[1])
+            elif words and words[0] == "POINT_DATA":
+                count = int(words[1])
+            elif words and words[0] == "SCALARS":
+                made = both(line + "\n" + next(lines), as_bytes(codes[words[2]], numbers(count)))
+            elif words and words[0] == "CELLS":
+                values = list(map(int, numbers(int(words[2]))))
+                offsets, corners, at = [0], [], 0
+                while at < len(values):
+                    corners += values[at + 1:at + 1 + values[at]]
+                    at += 1 + values[at]
+                    offsets.append(len(corners))
+                made = (both(line, as_bytes("i", values))[0],
+                        f"CELLS {len(offsets)} {len(corners)}\nOFFSETS vtktypeint64\n".encode() + as_bytes("q", offsets)
+                        + b"CONNECTIVITY vtktypeint64\n" + as_bytes("q", corners))
+            old, new = old + made[0], new + made[1]
+        return old, new.replace(b"Version 4.2", b"Version 5.1")
+
+    def test_all_versions_are_one_mesh(self):
+        for model in (PLATE, BRACKET):
+            self.output = self.folder / "text.vtk"
+            self.mesh(model, "--no-refine")
+            text, seen = self.output.read_text(), set()
+            for name, data in zip(("old", "new"), self.binary(text)):
+                file = self.folder / f"{name}.vtk"
+                file.write_bytes(data)
+                self.pgdr("check", file, "--input", model, expect=0)
+                for n in (40, len(data) // 3, len(data) // 2, len(data) - 9):  # cut short
+                    cut = self.folder / "cut.vtk"
+                    cut.write_bytes(data[:n])
+                    self.pgdr("check", cut, expect=3)
+                self.pgdr("mesh", file, "-o", self.folder / "again.mesh")  # its boundary as an input
+                seen.add((self.folder / "again.mesh").read_bytes())
+            self.pgdr("mesh", self.output, "-o", self.folder / "again.mesh")
+            self.assertEqual(seen, {(self.folder / "again.mesh").read_bytes()})
+
+    def test_surfaces(self):
+        """Polygonal data: a cube of quadrilaterals, one as a strip; polygons of more corners are refused."""
+        head = "# vtk DataFile Version 2.0\na cube, of # six faces\nASCII\nDATASET POLYDATA\nPOINTS 8 float\n"
+        points = "".join(f"{i & 1} {i >> 1 & 1} {i >> 2}\n" for i in range(8))
+        faces = "POLYGONS 5 25\n4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\nTRIANGLE_STRIPS 1 5\n4 1 3 5 7\n"
+        data = "CELL_DATA 6\nSCALARS marker int\nLOOKUP_TABLE default\n1 2 3 4 5 6\nFIELD FieldData 1\nheat%20in 2 6 float\n" + "1 2 " * 6 + "\n"
+        cube = self.file("cube.vtk", head + points + faces + data)
+        self.output = self.folder / "cube.mesh"
+        self.mesh(cube, "--size", "0.3")
+        self.pgdr("check", self.output, "--input", cube, expect=0)
+        text = self.output.read_text()
+        rows = text[text.index("\nTriangles"):text.index("\nTetrahedra")].split("\n")[3:]
+        self.assertEqual({row.split()[3] for row in rows if len(row.split()) == 4}, set("123456"))
+        for wrong in (head.replace("POLYDATA", "STRUCTURED_GRID") + points, head + points + "POLYGONS 1 6\n5 0 1 3 2 4\n",
+                      head + points + "POLYGONS 1 4\n3 0 1 8\n", head + points + "POLYGONS 2 4\n3 0 1 2\n", head + "0 0 0\n",
+                      head + points + faces + "CELL_DATA 5\n", head.replace("2.0", "9.0") + points, head.replace("float", "bit") + points,
+                      "# vtk\n", head + points + "POLYGONS 1 99999999999\n3 0 1 2\n", head + points + "WHAT 1\n"):
+            self.pgdr("mesh", self.file("wrong.vtk", wrong), "-o", self.output, expect=3)
+
+    def test_fields(self):
+        """Point and cell data come along, those of cells without those of constraints."""
+        self.output = self.folder / "a.vtk"
+        self.mesh(PLATE)
+        words = self.output.read_text()
+        cells, points = (int(words.split(name)[1].split()[0]) for name in ("CELL_TYPES ", "POINTS "))
+        data = "FIELD more 1\nheat 1 %d double\n" % cells + " ".join(map(str, range(cells))) + "\n"
+        more = words.replace("POINT_DATA", data + "POINT_DATA") if "POINT_DATA" in words else words + data + f"POINT_DATA {points}\n"
+        more += f"VECTORS flow float\n" + "1 2 3\n" * points
+        file = self.file("b.vtk", more)
+        self.pgdr("remesh", file, "-o", self.folder / "c.vtu", "--size", "1")
+        made = (self.folder / "c.vtu").read_bytes()
+        self.assertIn(b'Name="heat"', made)
+        self.assertIn(b'Name="flow"', made)
 
     def test_meshio_reads_it(self):
         try:

@@ -26,7 +26,7 @@ const bool spatial = extension == ".smesh" || extension == ".obj" || extension =
 const bool tetgen = extension == ".ele";
 const bool vtk = extension == ".vtu" || extension == ".pvtu";
 const bool input = !tetgen && !vtk;
-const bool mesh = tetgen || vtk || extension == ".mesh" || extension == ".msh";
+const bool mesh = tetgen || vtk || extension == ".mesh" || extension == ".msh" || extension == ".vtk";
 constexpr std::size_t most_cells = 30;  // for the checker
 
 /// In a folder that does not exist: what refers to a file beside it finds none.

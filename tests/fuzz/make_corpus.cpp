@@ -41,9 +41,9 @@ template <int D>
 void put_meshes() {
   const TempFolder temporary;
   const std::string dimension = std::to_string(D) + "d";
-  for (const std::string extension : {"mesh", "msh", "vtu", "ele", "pvtu"})
+  for (const std::string extension : {"mesh", "msh", "vtk", "vtu", "ele", "pvtu"})
     write_mesh<D>(simplex<D>(), temporary / ("a." + extension));
-  for (const std::string extension : {"mesh", "msh", "vtu"})
+  for (const std::string extension : {"mesh", "msh", "vtk", "vtu"})
     put("read_" + extension, "simplex_" + dimension, content(temporary / ("a." + extension)));
   put("read_pvtu", "simplex_" + dimension, content(temporary / "a.pvtu"));
   put("read_vtu", "piece_" + dimension, content(temporary / "a_0.vtu"));
@@ -57,6 +57,9 @@ void put_inputs() {
   put("read_poly", "tetgen", tetgen_poly);
   put("read_poly", "points_beside", "0 3 0 0\n1 0\n1\n3 1 2 3\n0\n");
   put("read_smesh", "tetgen", tetgen_smesh);
+  put("read_vtk", "surface",
+      "# vtk DataFile Version 5.1\na\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nPOLYGONS 3 6\nOFFSETS "
+      "vtktypeint64\n0 3 6\nCONNECTIVITY vtktypeint64\n0 1 2 0 1 3\nCELL_DATA 2\nFIELD a 1\nb%20c 2 2 double\n1 2 3 4\n");
   put("read_node", "attributes", "2 3 1 1\n1 0.5 1 2 3 4\n2 -1e5 0 0 7 5\n");
   put("read_node", "plane", "2 2 0 0\n0 0.5 1\n1 -1e-5 0\n");
   put("read_off", "colours", colour_off);

@@ -129,7 +129,7 @@ class Plc:
     @classmethod
     def read(cls, path: Union[_arguments.Path, Sequence[_arguments.Path]], *, tolerance: Optional[float] = None, coarse: bool = False,
              region_areas: bool = False) -> Plc:
-        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh or .mesh, by its extension; or in a list of files, as
+        """The input in a file: .poly, .smesh, .node, .off, .obj, .ply, .stl, .msh, .vtk or .mesh, by its extension; or in a list of files, as
         `joined` makes it. With `region_areas`, a region of a .poly in 2D that has one number behind its point has it as label and as
         largest area; else as label alone.
 
