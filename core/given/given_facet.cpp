@@ -39,12 +39,9 @@ class FacetTriangulator {
       return out;
     }
     normal_ = normal();
-    if (!build()) {
-      join();
-      if (!build()) {
-        out.failed = true;
-        return out;
-      }
+    if (!build_joined() && !build()) {
+      out.failed = true;
+      return out;
     }
     planar_.carve_outside();
     for (const Point3& seed : facet_.holes) planar_.carve_hole(seed);
@@ -110,6 +107,18 @@ class FacetTriangulator {
     return false;
   }
 
+  /// With what meets within the tolerance joined: an edge that ends at another one but for rounding has a gap there, through
+  /// which a hole would leak. Else as it was.
+  bool build_joined() {
+    const auto vertices = vertices_;
+    const auto edges = edges_;
+    join();
+    if (build()) return true;
+    vertices_ = vertices;
+    edges_ = edges;
+    return false;
+  }
+
   void join() {
     std::map<std::uint32_t, std::uint32_t> kept;
     std::vector<std::uint32_t> by_x = vertices_;
@@ -121,13 +130,17 @@ class FacetTriangulator {
     }
     for (std::uint32_t& v : vertices_) v = kept[v];
     make_set(vertices_);
+    std::erase_if(by_x, [&](std::uint32_t v) { return kept[v] != v; });
     std::vector<PlanarEdge> finer;
     for (const PlanarEdge& e : edges_) {
       const std::uint32_t a = kept[e[0]], b = kept[e[1]];
       if (a == b) continue;
       const auto d = difference(at(b), at(a));
       std::vector<std::pair<double, std::uint32_t>> along{{0, a}, {dot(d, d), b}};
-      for (const std::uint32_t v : vertices_) {
+      const auto [low, high] = std::minmax({at(a)[0] - reach_, at(b)[0] - reach_, at(a)[0] + reach_, at(b)[0] + reach_});
+      for (auto near = std::ranges::lower_bound(by_x, low, {}, [&](std::uint32_t v) { return at(v)[0]; });
+           near != by_x.end() && at(*near)[0] <= high; ++near) {
+        const std::uint32_t v = *near;
         const double t = dot(difference(at(v), at(a)), d);
         if (v != a && v != b && t > 0 && t < dot(d, d) && detail::closest_to_edge(at(v), at(a), at(b)).square <= reach_ * reach_)
           along.push_back({t, v});
