@@ -41,8 +41,7 @@
 //   0, written all or none. The latter two may be missing when read. X.edge may have all edges, and X.neigh the
 //   neighbours of each cell.
 // - .vtk: unstructured grids and polygonal data, as text or binary, with cell data "region" and "marker", and point data
-// "marker";
-//   other point and cell data are for `read_fields`.
+//   "marker"; other point and cell data are for `read_fields`.
 // - .mesh, .msh and .vtk as inputs: cells (tetrahedra, hexahedra, ...; in 2D triangles and quadrilaterals) are dropped, with the
 //   points that they alone have, but faces of simplices that bound them, or lie between labels, become facets where the file
 //   has none; labels become region seeds, the voids that the cells enclose holes. A file whose points all have z = 0 is 2D, if
