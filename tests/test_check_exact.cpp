@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "check/bounds.hpp"
 #include "dimensions.hpp"
 #include "enclosed/input_volumes.hpp"
 #include "given/cover.hpp"
+#include "given/given_facet.hpp"
 #include "given/segment_chain.hpp"
 #include "numbers/exact_tests.hpp"
 #include "pgdr/predicates.hpp"
@@ -287,6 +289,25 @@ TEST(CheckExact, ASegmentIsTheChainToItsOtherEnd) {
   EXPECT_EQ(chain({{2, 0}, {3, 1}, {0, 1}, {2, 4}, {4, 3}}), (std::vector<Ends>{{0, 1}, {3, 1}}));
   EXPECT_EQ(chain({{2, 0}, {3, 1}, {2, 4}, {4, 3}}), (std::vector<Ends>{{2, 0}, {2, 4}, {4, 3}}));
   EXPECT_TRUE(chain({{2, 0}, {3, 1}}).empty());
+}
+
+// A cell of spheres cut by its faces, turned: loose edges, about a hole, that end 2^-60 inside of the facet's outline.
+TEST(CheckExact, AHoleDoesNotLeakBesideTheOutline) {
+  Plc<3> plc;
+  for (const auto& [x, y] :
+       {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {0x1p-60, 0.25}, {0.25, 0.5}, {0x1p-60, 0.75}})
+    plc.points.push_back({x, y, 0.0});
+  plc.facets.push_back({{{0, 1, 2, 3}, {4, 5}, {5, 6}}, {{0.125, 0.5, 0.0}}, 0});
+  std::vector<std::uint32_t> place(plc.points.size());
+  std::iota(place.begin(), place.end(), 0u);
+  const auto made = triangulate_given(plc, ExplicitEdges(plc, place), 0, 0x1p-50);
+  EXPECT_FALSE(made.failed);
+  double area = 0;
+  for (const auto& t : made.triangles) {
+    const Point3 &a = plc.points[t[0]], &b = plc.points[t[1]], &c = plc.points[t[2]];
+    area += std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+  }
+  EXPECT_NEAR(area, 1 - 0.0625, 1e-12);
 }
 
 }  // namespace test_check_exact
