@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/read/file_mesh.hpp"
-#include "io/write/mid_sides.hpp"
+#include "output/mid_sides.hpp"
 #include "paths/file_input.hpp"
 #include "paths/file_output.hpp"
 #include "paths/file_slices.hpp"

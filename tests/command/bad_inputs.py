@@ -85,7 +85,7 @@ BAD_INPUTS = {
     "index.ply": (PLY.replace("3 0 2 1", "3 0 2 4"), 14),
     "index.mesh": (MEDIT.replace("1 3 2 0", "1 3 5 0"), 11),
     "index.msh": (MSH.replace("0 2 2 0 1 1 3 2", "0 2 2 0 1 1 3 5"), 13),
-    "curved.msh": (MSH.replace("0 2 2 0 1 1 3 2", "0 9 2 0 1 1 3 2 1 3 2"), 13),
+    "curved.msh": (MSH.replace("0 2 2 0 1 1 3 2", "0 21 2 0 1 1 3 2 1 3 2 1 3 2 1"), 13),
     "version.msh": (MSH.replace("2.2 0 8", "4.0 0 8"), 2),
     "binary.poly": (bytes(range(256)) * 4, None),
 }

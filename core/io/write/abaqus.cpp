@@ -13,9 +13,9 @@
 
 #include "input/words.hpp"
 #include "io/formats.hpp"
-#include "io/write/mid_sides.hpp"
 #include "io/write/valid_names.hpp"
 #include "io/write/wall_sides.hpp"
+#include "output/mid_sides.hpp"
 
 namespace pgdr::detail {
 namespace {

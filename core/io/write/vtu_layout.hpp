@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/write/mid_sides.hpp"
+#include "output/mid_sides.hpp"
 #include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/mesh_piece.hpp"
