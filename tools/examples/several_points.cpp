@@ -100,7 +100,7 @@ pgdr::SelectedPoints<2> ring(const pgdr::PoorElement<2>& e) {
 pgdr::Plc<2> square_with_pairs() {
   pgdr::Plc<2> plc;
   plc.points = {{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}};
-  plc.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  plc.segments = {{{0, 1}}, {{1, 2}}, {{2, 3}}, {{3, 0}}};
   std::mt19937_64 random(4);
   const auto draw = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   for (int i = 0; i < 12; ++i) {
