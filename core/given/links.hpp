@@ -28,13 +28,6 @@ struct Links {
   bool is_wall(std::uint32_t face) const { return bits[face / corners] >> (face % corners) & 1; }
 };
 
-template <int D>
-Simplex<D> corners_of(const OutputMesh<D>& mesh, std::uint32_t cell) {
-  Simplex<D> s;
-  for (int i = 0; i <= D; ++i) s[i] = mesh.points[mesh.cells[cell][i]];
-  return s;
-}
-
 /// The vertices of a face, ordered so that orient(face, opposite vertex) is that of the cell.
 template <int D>
 std::array<std::uint32_t, D> face_vertices(const OutputMesh<D>& mesh, std::uint32_t face) {

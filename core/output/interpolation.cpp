@@ -11,6 +11,7 @@
 #include "numbers/exact_sum.hpp"
 #include "numbers/rounding.hpp"
 #include "numbers/signed_measure.hpp"
+#include "output/simplices.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
@@ -18,13 +19,6 @@ namespace {
 
 /// Of all weights together, as a part of their sum: bounds on errors are ten times what these are.
 constexpr double most_error = 0x1p-40;
-
-template <int D>
-Simplex<D> corners_of(const std::vector<Point<D>>& points, const std::array<std::uint32_t, D + 1>& cell) {
-  Simplex<D> s;
-  for (int i = 0; i <= D; ++i) s[i] = points[cell[i]];
-  return s;
-}
 
 template <int D>
 double dot(const Point<D>& a, const Point<D>& b, const Point<D>& from) {

@@ -2,7 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/types.hpp"
 
 namespace pgdr {
 
@@ -13,6 +19,18 @@ const auto& walls(const OutputMesh<D>& mesh) {
     return mesh.subsegments;
   else
     return mesh.subfacets;
+}
+
+/// The corners of a cell of these points.
+template <int D>
+Simplex<D> corners_of(std::span<const Point<D>> points, const std::array<std::uint32_t, D + 1>& cell) {
+  Simplex<D> s;
+  for (std::size_t i = 0; i <= D; ++i) s[i] = points[cell[i]];
+  return s;
+}
+template <int D>
+Simplex<D> corners_of(const OutputMesh<D>& mesh, std::size_t cell) {
+  return corners_of<D>(mesh.points, mesh.cells[cell]);
 }
 
 /// Calls f(vertices) for all cells and constraints.

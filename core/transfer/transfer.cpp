@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "output/interpolation.hpp"
+#include "output/simplices.hpp"
 #include "pgdr/error.hpp"
 #include "space/box_tree.hpp"
 #include "space/bulk.hpp"
@@ -41,13 +42,6 @@ void require_count(std::size_t values, std::size_t rows, std::size_t width) {
     throw UsageError(
         {.code = Errc::bad_option,
          .message = std::to_string(values) + " values for " + std::to_string(rows) + " rows of " + std::to_string(width)});
-}
-
-template <int D>
-Simplex<D> corners_of(const OutputMesh<D>& mesh, std::size_t c) {
-  Simplex<D> s;
-  for (std::size_t i = 0; i <= D; ++i) s[i] = mesh.points[mesh.cells[c][i]];
-  return s;
 }
 
 template <int D>
