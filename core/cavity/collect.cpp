@@ -146,7 +146,6 @@ auto Cavity<D>::collect_on_face(const Point<D>& p, CellId cell, int face) -> Sta
   begin(p);
   const Link across = mesh_->cell(cell).links[face];
   assert(owns(cell) && (!across || may_read(across.cell())));
-  if (!mesh_->conflicts(cell, p) && !(across && mesh_->conflicts(across.cell(), p))) return Status::not_in_conflict;
   const Status status = add_part_face(cell, face, mesh_->constraints(cell)->face_entity[face]);
   if (status != Status::ok) return status;
   protected_.push_back(cell);
@@ -192,9 +191,6 @@ auto Cavity<D>::collect_on_edge(const Point<D>& p, CellId cell, int edge, double
     }
   }
   protected_ = cells_;
-  bool conflict = false;
-  for (const CellId c : protected_) conflict = conflict || mesh_->conflicts(c, p);
-  if (!conflict) return Status::not_in_conflict;
   return collect_all();
 }
 
