@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The parts into which its segments divide a facet of a Domain: which facets of the input cover each, and which part a subfacet
-// of a finished mesh lies in. A part is told by the segments about it and the sides on which it has them, so that no point is
-// located. Near-linear; any thread.
+// The parts into which its segments divide a facet of a Domain (input/domain_parts.hpp): which facets of the input cover each,
+// and which part a subfacet of a finished mesh lies in. Near-linear; any thread.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "input/domain_parts.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/output_mesh.hpp"
 
@@ -27,27 +27,12 @@ class FacetParts {
   }
 
  private:
-  /// One side of a segment, in a facet that has it. The left one is that on the left of the way from its first point to its
-  /// second, where the facet is seen along its axis.
-  struct Side {
-    EntityId facet, segment;
-    bool left;
-    auto operator<=>(const Side&) const = default;
-  };
-  struct PartAtSide {
-    Side side;
-    std::uint32_t part;
-    auto operator<=>(const PartAtSide&) const = default;
-  };
-
-  void find_parts();
   void list_inputs();
   std::vector<std::uint32_t> mixed_inputs(EntityId f) const;
 
   const Domain<3>& domain_;
-  std::vector<std::uint32_t> part_of_;  // of each triangle of all facets; a part goes by its first one
-  std::vector<PartAtSide> at_sides_;    // sorted
-  std::vector<std::uint32_t> begin_;    // of each part, and one more: into inputs_
+  DomainParts parts_;
+  std::vector<std::uint32_t> begin_;  // of each part, and one more: into inputs_
   std::vector<std::uint32_t> inputs_;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "input/sharp_angles.hpp"
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 
@@ -25,7 +26,7 @@ struct Corner {
   std::array<std::uint32_t, 2> ends;  ///< the two others
 };
 
-std::vector<Corner> corners_at(const Domain<3>& domain, EntityRef entity, std::uint32_t point) {
+std::vector<Corner> corners_at(const Domain<3>& domain, EntityRef entity, std::uint32_t point, CountedTriangles counted) {
   std::vector<Corner> corners;
   if (entity.kind == EntityKind::segment) {
     const auto& ends = domain.segments()[entity.id].points;
@@ -35,6 +36,7 @@ std::vector<Corner> corners_at(const Domain<3>& domain, EntityRef entity, std::u
   }
   const std::uint32_t first = domain.facets()[entity.id].first_triangle;
   for (const std::uint32_t k : domain.triangles_at(entity.id, point)) {
+    if (!counted.empty() && counted[k] == 0) continue;
     auto t = domain.triangles(entity.id)[k - first];
     std::rotate(t.begin(), std::find(t.begin(), t.end(), point), t.end());
     corners.push_back({k - first, {t[1], t[2]}});
@@ -108,10 +110,11 @@ std::array<std::uint32_t, 2> GivenNames<D>::triangles_at_angle(const DomainReaso
     const std::vector<std::uint32_t> of_a = points_of(domain_, a), of_b = points_of(domain_, b);
     std::vector<std::uint32_t> common;
     std::set_intersection(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), std::back_inserter(common));
+    const CountedTriangles counted = meshed_;
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t v : common)
-      for (const Corner& x : corners_at(domain_, a, v))
-        for (const Corner& y : corners_at(domain_, b, v)) {
+      for (const Corner& x : corners_at(domain_, a, v, counted))
+        for (const Corner& y : corners_at(domain_, b, v, counted)) {
           const double off = std::abs(angle_between(domain_, v, x, y) - reason.angle);
           if (!(off < least)) continue;
           least = off;

@@ -8,6 +8,7 @@
 #include <array>
 #include <vector>
 
+#include "input/sharp_angles.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "reasons/poor_reasons.hpp"
 
@@ -16,8 +17,9 @@ namespace pgdr {
 template <int D>
 class GivenNames {
  public:
-  /// @param mesh of the Domain. Both must outlive it.
-  GivenNames(const Domain<D>& domain, const OutputMesh<D>& mesh) : domain_(domain), mesh_(mesh) {}
+  /// @param mesh of the Domain. @param meshed its parts of facets. All must outlive it.
+  GivenNames(const Domain<D>& domain, const OutputMesh<D>& mesh, CountedTriangles meshed)
+      : domain_(domain), mesh_(mesh), meshed_(meshed) {}
 
   /// One thread. Takes a look at all subfacets once.
   PoorReason named(const DomainReason& reason, std::uint32_t cell);
@@ -31,6 +33,7 @@ class GivenNames {
 
   const Domain<D>& domain_;
   const OutputMesh<D>& mesh_;
+  CountedTriangles meshed_;
   std::vector<std::uint32_t> subfacet_of_, given_of_;  ///< of each facet: its first subfacet; its name once it was asked for
 };
 

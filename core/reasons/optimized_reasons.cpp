@@ -42,13 +42,14 @@ std::array<WallAtEdge, 2> walls_at(const Mesh<3>& mesh, CellId c, int edge) {
 }  // namespace
 
 OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain, const CellBounds<3>& bounds,
-                                   const KeptEntities<3>& kept, double largest_cosine)
+                                   const KeptEntities<3>& kept, CountedTriangles meshed, double largest_cosine)
     : mesh_(&mesh),
       domain_(&domain),
       bounds_(&bounds),
       kept_(&kept),
+      meshed_(meshed),
       angles_{bounds.radius_edge_bound, largest_cosine},
-      gaps_(mesh, domain, angles_),
+      gaps_(mesh, domain, angles_, meshed),
       segments_at_(domain.points().size()) {
   for (const Point3& p : domain.points())
     for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
@@ -58,7 +59,7 @@ OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain,
 
 DomainReason OptimizedReasons::small_angle(EntityKind kind, const Pair& pair) const {
   const std::array<EntityRef, 2> entities{EntityRef{kind, pair[0]}, EntityRef{kind, pair[1]}};
-  return {PoorReason::Code::small_angle, entities, entity_angle<3>(*domain_, entities[0], entities[1])};
+  return {PoorReason::Code::small_angle, entities, counted_angle<3>(*domain_, entities[0], entities[1], meshed_)};
 }
 
 /// A segment at which the walls on both sides of the cell make an angle below the target. The walls are the mesh's, as the cell
@@ -90,7 +91,7 @@ std::optional<DomainReason> OptimizedReasons::corner_of_cell(CellId c) {
     const auto [at, fresh] = sharp_corners_.try_emplace(home.id());
     if (fresh)
       for (const Pair& pair : segments_sharp_at(home.id()))
-        if (!at->second && is_sharp_corner(*domain_, home.id(), pair[0], pair[1], angles_)) at->second = pair;
+        if (!at->second && is_sharp_corner(*domain_, home.id(), pair[0], pair[1], angles_, meshed_)) at->second = pair;
     if (at->second) return small_angle(EntityKind::segment, *at->second);
   }
   return {};
@@ -100,7 +101,7 @@ std::optional<DomainReason> OptimizedReasons::corner_of_cell(CellId c) {
 std::optional<DomainReason> OptimizedReasons::gap_at_corner(CellId c) {
   const auto pair = gaps_.of_cell(c);
   if (!pair) return {};
-  return DomainReason{PoorReason::Code::small_angle, *pair, entity_angle<3>(*domain_, (*pair)[0], (*pair)[1])};
+  return DomainReason{PoorReason::Code::small_angle, *pair, counted_angle<3>(*domain_, (*pair)[0], (*pair)[1], meshed_)};
 }
 
 const std::vector<OptimizedReasons::Pair>& OptimizedReasons::segments_sharp_at(EntityId point) {
@@ -124,7 +125,7 @@ const std::vector<OptimizedReasons::Pair>& OptimizedReasons::facets_sharp_at(Ent
   const auto facets = domain_->facets_of_segment(segment);
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (meet_too_sharply(*domain_, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[j]}, angles_))
+      if (meet_too_sharply(*domain_, {EntityKind::facet, facets[i]}, {EntityKind::facet, facets[j]}, angles_, meshed_))
         at->second.push_back({facets[i], facets[j]});
   return at->second;
 }

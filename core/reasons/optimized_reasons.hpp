@@ -25,7 +25,7 @@ class OptimizedReasons {
  public:
   /// What it is given must outlive it. `kept`: what was not split. `largest_cosine`: claimed_cosine of the target.
   OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain, const CellBounds<3>& bounds, const KeptEntities<3>& kept,
-                   double largest_cosine);
+                   CountedTriangles meshed, double largest_cosine);
 
   /// Of those of the cells that are over a bound, as the checker decides it. Where nothing excuses the cell the code is
   /// `otherwise`: not_found or budget. Ends early, with some of them, once `ended` says so.
@@ -51,6 +51,7 @@ class OptimizedReasons {
   const Domain<3>* domain_;
   const CellBounds<3>* bounds_;
   const KeptEntities<3>* kept_;
+  CountedTriangles meshed_;
   AngleBounds angles_;
   VertexGaps gaps_;
   double largest_ = 0;                                               ///< coordinate of the input

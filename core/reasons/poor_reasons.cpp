@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "input/entities.hpp"
+#include "input/sharp_angles.hpp"
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
@@ -67,23 +68,25 @@ bool PoorReasons<D>::meets(EntityRef e, const Ball<D>& ball) const {
   return squared_distance_to<D>(*domain_, e, ball.center) <= ball.squared_radius;
 }
 
-/// As the checker will ask: do they meet at less than 60 (two segments) or 90 degrees? The reason that this is, if so.
+/// As the checker will ask: do they meet, in the mesh, at less than 60 (two segments) or 90 degrees? The reason that this is, if
+/// so.
 template <int D>
-std::optional<DomainReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle_of) const {
+std::optional<DomainReason> PoorReasons<D>::small_angle(const std::array<EntityRef, 2>& pair) const {
   if (!has_extent(pair[0]) || !has_extent(pair[1]) || pair[0] == pair[1]) return {};
   if (kept_->any() && may_be_of_one_plane(*domain_, pair)) return {};
   if (!entities_touch<D>(*domain_, pair[0], pair[1])) return {};
   const bool segments = pair[0].kind == EntityKind::segment && pair[1].kind == EntityKind::segment;
-  const double angle = angle_of(pair[0], pair[1]);
-  if (angle >= (segments ? 60 : 90)) return {};
+  const double limit = segments ? 60 : 90;
+  double angle = entity_angle<D>(*domain_, pair[0], pair[1]);
+  if (!segments && angle < limit) angle = counted_angle<D>(*domain_, pair[0], pair[1], meshed_);
+  if (angle >= limit) return {};
   return DomainReason{PoorReason::Code::small_angle, pair, angle};
 }
 
 /// Do they meet at such an angle, one of them within the ball, which is named first then?
 template <int D>
-bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle_of,
-                              DomainReason& reason) const {
-  const auto found = small_angle(pair, angle_of);
+bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, DomainReason& reason) const {
+  const auto found = small_angle(pair);
   if (!found) return false;
   for (const auto& order : {pair, std::array{pair[1], pair[0]}}) {
     if (!meets(order[0], doubled)) continue;
@@ -97,7 +100,7 @@ bool PoorReasons<D>::explains(const std::array<EntityRef, 2>& pair, const Ball<D
 /// c: its diametral disk meets the circumdisk (small-angles.md has the proof). What refused the cell comes first.
 template <int D>
 std::optional<DomainReason> PoorReasons<D>::explain_by_piece(CellId c, std::span<const CellId> cells,
-                                                             std::span<const EntityRef> near, const Angle& angle) const {
+                                                             std::span<const EntityRef> near) const {
   if constexpr (D == 2) {
     const auto sphere = circumsphere<D>(mesh_->simplex(c));
     const double radius = std::sqrt(sphere.squared_radius);
@@ -114,8 +117,8 @@ std::optional<DomainReason> PoorReasons<D>::explain_by_piece(CellId c, std::span
         if (std::sqrt(squared_distance(sphere.center, ball.center)) > reach) continue;
         const EntityRef e = mesh_->entity_of_face(k, i);
         if (why && why->entities[0] == e)
-          if (const auto reason = small_angle(why->entities, angle)) return reason;
-        for (std::size_t j = 0; j < near.size() && !found; ++j) found = small_angle({e, near[j]}, angle);
+          if (const auto reason = small_angle(why->entities)) return reason;
+        for (std::size_t j = 0; j < near.size() && !found; ++j) found = small_angle({e, near[j]});
       }
     }
     return found;
@@ -159,10 +162,9 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
                        [&](VertexId v) { return lies_on<D>(*domain_, mesh_->vertex(v).home, e); });
   };
   const Ball<D> doubled = doubled_circumball<D>(mesh_->simplex(c));
-  const Angle angle = [this](EntityRef a, EntityRef b) { return entity_angle<D>(*domain_, a, b); };
   DomainReason reason;
   if (const auto why = why_.find(index(c)); why != why_.end() && why->second)
-    if (!beside && explains(why->second->entities, doubled, angle, reason)) return reason;
+    if (!beside && explains(why->second->entities, doubled, reason)) return reason;
   // Below the proved bound most cells have no small angle to name, and need none.
   const bool proved = bounds_->radius_edge_bound >= smallest_proved_bound<D>();
   const std::size_t most_cells = proved ? most_cells_about : 16;
@@ -177,7 +179,7 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
     for (std::size_t j = 0; j + 1 < near.size(); ++j) {
       if (!in_ball[j] && !in_ball.back()) continue;
       if (beside && !touches(e) && !touches(near[j])) continue;
-      if (explains({e, near[j]}, doubled, angle, reason)) return true;
+      if (explains({e, near[j]}, doubled, reason)) return true;
     }
     return false;
   };
@@ -189,7 +191,7 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
       if (link && cells.size() < most_cells && known.insert(index(link.cell())).second) cells.push_back(link.cell());
   }
   if (proved && !beside)
-    if (const auto found = explain_by_piece(c, cells, near, angle)) return *found;
+    if (const auto found = explain_by_piece(c, cells, near)) return *found;
   reason.code = !proved                                                             ? PoorReason::Code::beyond_theory
                 : checking::is_as_short_as_rounding<D>(mesh_->simplex(c), largest_) ? PoorReason::Code::rounding
                                                                                     : PoorReason::Code::not_found;
@@ -202,8 +204,8 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
 
 template <int D>
 PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds,
-                            const KeptEntities<D>& kept, const detail::Bulk& bulk)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), kept_(&kept) {
+                            const KeptEntities<D>& kept, CountedTriangles meshed, const detail::Bulk& bulk)
+    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), kept_(&kept), meshed_(meshed) {
   const auto ends = [&](EntityId s) { return domain.segments()[s].points; };
   detail::sort_by_points(domain.points().size(), domain.segments().size(), ends, bulk, segments_begin_, segments_at_);
   for (const Point<D>& p : domain.points())

@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "input/sharp_angles.hpp"
 #include "mesh/ids.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/poor_reason.hpp"
@@ -65,11 +66,9 @@ Ball<D> doubled_circumball(const Simplex<D>& cell);
 template <int D>
 class PoorReasons {
  public:
-  using Angle = std::function<double(EntityRef, EntityRef)>;  ///< entity_angle of two, or what a caller remembers of it
-
-  /// All must outlive it. `kept`: what was not split.
+  /// All must outlive it. `kept`: what was not split. `meshed`: whose angles count.
   PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds, const KeptEntities<D>& kept,
-              const detail::Bulk& bulk);
+              CountedTriangles meshed, const detail::Bulk& bulk);
 
   /// What was refused in one region. What is said of a cell last counts, if it names a pair.
   void add(std::span<const Refusal<D>> refused);
@@ -87,10 +86,9 @@ class PoorReasons {
 
  private:
   DomainReason explain(CellId c, bool beside) const;
-  std::optional<DomainReason> small_angle(const std::array<EntityRef, 2>& pair, const Angle& angle) const;
-  std::optional<DomainReason> explain_by_piece(CellId c, std::span<const CellId> cells, std::span<const EntityRef> near,
-                                               const Angle& angle) const;
-  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, const Angle& angle, DomainReason& reason) const;
+  std::optional<DomainReason> small_angle(const std::array<EntityRef, 2>& pair) const;
+  std::optional<DomainReason> explain_by_piece(CellId c, std::span<const CellId> cells, std::span<const EntityRef> near) const;
+  bool explains(const std::array<EntityRef, 2>& pair, const Ball<D>& doubled, DomainReason& reason) const;
   bool meets(EntityRef e, const Ball<D>& ball) const;
   template <class F>
   bool any_entity_of(Home home, F f) const;
@@ -102,6 +100,7 @@ class PoorReasons {
   const Domain<D>* domain_;
   const CellBounds<D>* bounds_;
   const KeptEntities<D>* kept_;
+  CountedTriangles meshed_;
   double largest_ = 0;  ///< coordinate of the input
   /// Of each input point its segments: segments_at_ from segments_begin_ on.
   std::vector<std::uint32_t> segments_begin_, segments_at_;

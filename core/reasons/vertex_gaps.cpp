@@ -36,7 +36,7 @@ bool any_cell_round(const Mesh<3>& mesh, CellId c, VertexId v, Crosses crosses, 
 
 const std::optional<Point3>& VertexGaps::gap(EntityId point, EntityRef a, EntityRef b) {
   const auto [at, fresh] = gaps_.try_emplace({point, a.kind, a.id, b.kind, b.id});
-  if (fresh) at->second = middle_of_gap(*domain_, point, a, b, bounds_);
+  if (fresh) at->second = middle_of_gap(*domain_, point, a, b, bounds_, meshed_);
   return at->second;
 }
 

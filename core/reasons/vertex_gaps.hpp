@@ -21,8 +21,8 @@ class VertexGaps {
   using Pair = std::array<EntityRef, 2>;
 
   /// What it is given must outlive it.
-  VertexGaps(const Mesh<3>& mesh, const Domain<3>& domain, const AngleBounds& bounds)
-      : mesh_(&mesh), domain_(&domain), bounds_(bounds) {}
+  VertexGaps(const Mesh<3>& mesh, const Domain<3>& domain, const AngleBounds& bounds, CountedTriangles meshed)
+      : mesh_(&mesh), domain_(&domain), bounds_(bounds), meshed_(meshed) {}
 
   /// For a cell that is thin at a corner on such a point, and has another corner on one of the two.
   std::optional<Pair> of_cell(CellId c);
@@ -36,6 +36,7 @@ class VertexGaps {
   const Mesh<3>* mesh_;
   const Domain<3>* domain_;
   AngleBounds bounds_;
+  CountedTriangles meshed_;
   /// Of a point, and the kinds and numbers of two entities: middle_of_gap.
   std::map<std::tuple<EntityId, EntityKind, EntityId, EntityKind, EntityId>, std::optional<Point3>> gaps_;
 };

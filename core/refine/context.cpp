@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "numbers/rounding.hpp"
+#include "refine/meshed_parts.hpp"
 #include "space/box.hpp"
 
 namespace pgdr {
@@ -46,6 +47,7 @@ RefineContext<D>::RefineContext(Mesh<D>& m, const Domain<D>& d, const RefineOpti
       options(o),
       bounds(std::move(b)),
       kept(o, d),
+      meshed(meshed_triangles<D>(m, d)),
       start(start_time),
       buckets_before_entities(D == 2 ? buckets : buckets_of_ratio(2 * bounds.radius_edge_bound)),
       shells(d, D == 2),

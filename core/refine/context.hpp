@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <vector>
 
 #include "mesh/mesh.hpp"
 #include "pgdr/circumsphere.hpp"
@@ -54,6 +55,7 @@ struct RefineContext {
   const RefineOptions<D>& options;                    ///< as the caller gave them
   const CellBounds<D> bounds;                         ///< of cells
   const KeptEntities<D> kept;                         ///< which no point goes onto
+  const std::vector<std::uint8_t> meshed;             ///< meshed_triangles(): whose angles count
   const std::chrono::steady_clock::time_point start;  ///< of the time limit
   /// Is the mesh constrained Delaunay before the refinement begins? Set before it does.
   bool begins_delaunay = true;

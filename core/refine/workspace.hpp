@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cavity/cavity.hpp"
+#include "input/sharp_angles.hpp"
 #include "mesh/entity_pair.hpp"
 #include "refine/context.hpp"
 #include "refine/node_visit.hpp"
@@ -29,18 +30,20 @@ enum class Outcome {
 template <int D>
 class EntityAngles {
  public:
-  explicit EntityAngles(const Domain<D>& domain) : domain_(&domain) {}  ///< the domain must outlive it
+  /// Both must outlive it. @param meshed of triangles of facets: whose corners count
+  EntityAngles(const Domain<D>& domain, CountedTriangles meshed) : domain_(&domain), meshed_(meshed) {}
 
-  /// `entity_angle` of the two, in degrees.
+  /// `entity_angle` of the two, in degrees, where they are in the mesh.
   double between(EntityRef a, EntityRef b) {
     const auto key = [](EntityRef e) { return std::uint64_t{e.id} << 1 | (e.kind == EntityKind::facet ? 1 : 0); };
     const auto [at, is_new] = angles_.try_emplace({key(a), key(b)});
-    if (is_new) at->second = entity_angle<D>(*domain_, a, b);
+    if (is_new) at->second = counted_angle<D>(*domain_, a, b, meshed_);
     return at->second;
   }
 
  private:
   const Domain<D>* domain_;
+  CountedTriangles meshed_;
   std::map<std::pair<std::uint64_t, std::uint64_t>, double> angles_;
 };
 
@@ -57,7 +60,7 @@ struct Workspace {
         options(c.options),
         pools(std::move(p)),
         cavity(c.mesh, &c.domain),
-        angles(c.domain) {
+        angles(c.domain, c.meshed) {
     cavity.set_seen(&trace);
   }
   Workspace(const Workspace&) = delete;

@@ -85,10 +85,11 @@ struct Corner {
   Vector b, c;
 };
 
-std::vector<Corner> corners_at(const Domain<3>& domain, EntityId f, std::uint32_t v) {
+std::vector<Corner> corners_at(const Domain<3>& domain, EntityId f, std::uint32_t v, CountedTriangles counted) {
   std::vector<Corner> out;
   const auto p = domain.points();
   for (const std::uint32_t k : domain.triangles_at(f, v)) {
+    if (!counted.empty() && counted[k] == 0) continue;
     const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
     for (std::size_t i = 0; i < 3; ++i)
       if (t[i] == v) out.push_back({direction(p[v], p[t[(i + 1) % 3]]), direction(p[v], p[t[(i + 2) % 3]])});
@@ -102,11 +103,12 @@ struct HalfPlane {
   Vector normal;
 };
 
-std::vector<HalfPlane> half_planes(const Domain<3>& domain, EntityId f, const DomainSegment& s) {
+std::vector<HalfPlane> half_planes(const Domain<3>& domain, EntityId f, const DomainSegment& s, CountedTriangles counted) {
   std::vector<HalfPlane> out;
   const auto p = domain.points();
   const auto [a, b] = s.points;
   for (const std::uint32_t k : domain.triangles_at(f, a)) {
+    if (!counted.empty() && counted[k] == 0) continue;
     const auto& t = domain.triangles(f)[k - domain.facets()[f].first_triangle];
     if (std::find(t.begin(), t.end(), b) == t.end()) continue;
     const std::uint32_t c = detail::corner_beside(t, a, b);
@@ -146,7 +148,7 @@ double segment_angle(const Domain<D>& domain, EntityId s, EntityId t) {
   return 180;
 }
 
-double segment_facet_angle(const Domain<3>& domain, EntityId s, EntityId f) {
+double segment_facet_angle(const Domain<3>& domain, EntityId s, EntityId f, CountedTriangles counted) {
   const auto own = domain.facet_segments(f);
   if (std::binary_search(own.begin(), own.end(), s)) return 180;  // part of it
   const auto points = domain.facet_points(f);
@@ -155,25 +157,25 @@ double segment_facet_angle(const Domain<3>& domain, EntityId s, EntityId f) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!std::binary_search(points.begin(), points.end(), ends[i])) continue;
     const Vector r = direction(domain.points()[ends[i]], domain.points()[ends[1 - i]]);
-    for (const Corner& k : corners_at(domain, f, ends[i])) least = std::min(least, angle_to_corner(r, k.b, k.c));
+    for (const Corner& k : corners_at(domain, f, ends[i], counted)) least = std::min(least, angle_to_corner(r, k.b, k.c));
   }
   return least;
 }
 
-double facet_angle(const Domain<3>& domain, EntityId f, EntityId g) {
+double facet_angle(const Domain<3>& domain, EntityId f, EntityId g, CountedTriangles counted) {
   double least = 180;
   std::vector<std::uint32_t> done;
   for (const EntityId s : common(domain.facet_segments(f), domain.facet_segments(g))) {
     const DomainSegment& segment = domain.segments()[s];
     done.insert(done.end(), segment.points.begin(), segment.points.end());
-    const auto with = half_planes(domain, g, segment);
-    for (const HalfPlane& u : half_planes(domain, f, segment))
+    const auto with = half_planes(domain, g, segment, counted);
+    for (const HalfPlane& u : half_planes(domain, f, segment, counted))
       for (const HalfPlane& w : with) least = std::min(least, dihedral_angle(domain, segment, u, w));
   }
   for (const std::uint32_t v : common(domain.facet_points(f), domain.facet_points(g))) {
     if (std::find(done.begin(), done.end(), v) != done.end()) continue;  // along the segment the angle is 0
-    const auto with = corners_at(domain, g, v);
-    for (const Corner& k : corners_at(domain, f, v))
+    const auto with = corners_at(domain, g, v, counted);
+    for (const Corner& k : corners_at(domain, f, v, counted))
       for (const Corner& l : with)
         least = std::min({least, angle_to_corner(k.b, l.b, l.c), angle_to_corner(k.c, l.b, l.c), angle_to_corner(l.b, k.b, k.c),
                           angle_to_corner(l.c, k.b, k.c)});
@@ -213,18 +215,25 @@ bool entities_touch(const Domain<D>& domain, EntityRef a, EntityRef b) {
 
 template <int D>
 double entity_angle(const Domain<D>& domain, EntityRef a, EntityRef b) {
+  return counted_angle<D>(domain, a, b, {});
+}
+
+template <int D>
+double counted_angle(const Domain<D>& domain, EntityRef a, EntityRef b, CountedTriangles counted) {
   if (a == b) return 180;
   if (a.kind > b.kind) std::swap(a, b);
   if (a.kind == EntityKind::segment && b.kind == EntityKind::segment) return segment_angle(domain, a.id, b.id);
   if constexpr (D == 3) {
-    if (a.kind == EntityKind::segment && b.kind == EntityKind::facet) return segment_facet_angle(domain, a.id, b.id);
-    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet) return facet_angle(domain, a.id, b.id);
+    if (a.kind == EntityKind::segment && b.kind == EntityKind::facet) return segment_facet_angle(domain, a.id, b.id, counted);
+    if (a.kind == EntityKind::facet && b.kind == EntityKind::facet) return facet_angle(domain, a.id, b.id, counted);
   }
   return 180;
 }
 
 template bool entities_touch<2>(const Domain<2>&, EntityRef, EntityRef);
 template bool entities_touch<3>(const Domain<3>&, EntityRef, EntityRef);
+template double counted_angle<2>(const Domain<2>&, EntityRef, EntityRef, CountedTriangles);
+template double counted_angle<3>(const Domain<3>&, EntityRef, EntityRef, CountedTriangles);
 template PGDR_API double entity_angle<2>(const Domain<2>&, EntityRef, EntityRef);
 template PGDR_API double entity_angle<3>(const Domain<3>&, EntityRef, EntityRef);
 

@@ -18,9 +18,10 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-std::vector<Triangle> corner_triangles(const Domain<3>& domain, EntityId facet, std::uint32_t point) {
+std::vector<Triangle> corner_triangles(const Domain<3>& domain, EntityId facet, std::uint32_t point, CountedTriangles counted) {
   std::vector<Triangle> out;  // each turned so that the point is first
   for (const std::uint32_t k : domain.triangles_at(facet, point)) {
+    if (!counted.empty() && counted[k] == 0) continue;
     Triangle t = domain.triangles(facet)[k - domain.facets()[facet].first_triangle];
     std::rotate(t.begin(), std::find(t.begin(), t.end(), point), t.end());
     out.push_back(t);
@@ -29,21 +30,22 @@ std::vector<Triangle> corner_triangles(const Domain<3>& domain, EntityId facet, 
 }
 
 /// The third corners of the facet's triangles at a segment.
-std::vector<std::uint32_t> apexes_at(const Domain<3>& domain, EntityId facet, EntityId segment) {
+std::vector<std::uint32_t> apexes_at(const Domain<3>& domain, EntityId facet, EntityId segment, CountedTriangles counted) {
   const auto [a, b] = domain.segments()[segment].points;
   std::vector<std::uint32_t> out;
-  for (const Triangle& t : corner_triangles(domain, facet, a)) {
+  for (const Triangle& t : corner_triangles(domain, facet, a, counted)) {
     if (t[1] == b) out.push_back(t[2]);
     if (t[2] == b) out.push_back(t[1]);
   }
   return out;
 }
 
-bool wedge_at(const Domain<3>& domain, EntityId f, EntityId g, EntityId segment, double largest_cosine) {
+bool wedge_at(const Domain<3>& domain, EntityId f, EntityId g, EntityId segment, double largest_cosine,
+              CountedTriangles counted) {
   const auto p = domain.points();
   const auto [a, b] = domain.segments()[segment].points;
-  const auto beyond = apexes_at(domain, g, segment);
-  for (const std::uint32_t c : apexes_at(domain, f, segment))
+  const auto beyond = apexes_at(domain, g, segment, counted);
+  for (const std::uint32_t c : apexes_at(domain, f, segment, counted))
     for (const std::uint32_t d : beyond)
       if (detail::dihedral_below(p[a], p[b], p[c], p[d], largest_cosine)) return true;
   return false;
@@ -55,13 +57,13 @@ std::uint32_t far_end(const Domain<3>& domain, EntityId segment, std::uint32_t p
   return a == point ? b : b == point ? a : no_entity;
 }
 
-std::vector<Sector> sectors_at(const Domain<3>& domain, EntityRef e, std::uint32_t point) {
+std::vector<Sector> sectors_at(const Domain<3>& domain, EntityRef e, std::uint32_t point, CountedTriangles counted) {
   const auto p = domain.points();
   std::vector<Sector> out;
   if (e.kind == EntityKind::segment)
     if (const std::uint32_t end = far_end(domain, e.id, point); end != no_entity) out.push_back({p[end], p[end]});
   if (e.kind == EntityKind::facet)
-    for (const Triangle& t : corner_triangles(domain, e.id, point)) out.push_back({p[t[1]], p[t[2]]});
+    for (const Triangle& t : corner_triangles(domain, e.id, point, counted)) out.push_back({p[t[1]], p[t[2]]});
   return out;
 }
 
@@ -109,9 +111,10 @@ struct Gap {
 }  // namespace
 
 std::optional<Point3> middle_of_gap(const Domain<3>& domain, std::uint32_t point, EntityRef a, EntityRef b,
-                                    const AngleBounds& bounds) {
+                                    const AngleBounds& bounds, CountedTriangles counted) {
   if (bounds.largest_cosine >= 1 || share_segment_at(domain, point, a, b)) return {};
-  return middle_of_gap(domain.points()[point], sectors_at(domain, a, point), sectors_at(domain, b, point), bounds);
+  return middle_of_gap(domain.points()[point], sectors_at(domain, a, point, counted), sectors_at(domain, b, point, counted),
+                       bounds);
 }
 
 std::optional<Point3> middle_of_gap(const Point3& v, std::span<const Sector> a, std::span<const Sector> b,
@@ -155,12 +158,13 @@ bool has_direction(const Simplex<3>& s, int i, const Point3& point) {
   return true;
 }
 
-bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const AngleBounds& bounds) {
+bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const AngleBounds& bounds, CountedTriangles counted) {
   if (a.kind != b.kind || a.id == b.id) return false;
   if (a.kind == EntityKind::facet) {
     const auto of_a = domain.facet_segments(a.id), of_b = domain.facet_segments(b.id);
     return std::any_of(of_a.begin(), of_a.end(), [&](EntityId s) {
-      return std::find(of_b.begin(), of_b.end(), s) != of_b.end() && wedge_at(domain, a.id, b.id, s, bounds.largest_cosine);
+      return std::find(of_b.begin(), of_b.end(), s) != of_b.end() &&
+             wedge_at(domain, a.id, b.id, s, bounds.largest_cosine, counted);
     });
   }
   if (a.kind != EntityKind::segment) return false;
@@ -173,7 +177,8 @@ bool meet_too_sharply(const Domain<3>& domain, EntityRef a, EntityRef b, const A
 }
 
 // The projection along the facet's axis keeps the order of directions round a point of it.
-bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, EntityId t, const AngleBounds& bounds) {
+bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, EntityId t, const AngleBounds& bounds,
+                     CountedTriangles counted) {
   const auto p = domain.points();
   const std::uint32_t of_s = far_end(domain, s, point), of_t = far_end(domain, t, point);
   if (s == t || of_s == no_entity || of_t == no_entity) return false;
@@ -190,7 +195,7 @@ bool is_sharp_corner(const Domain<3>& domain, std::uint32_t point, EntityId s, E
       return (before == turn || after == turn) && (before == turn || before == Sign::zero) &&
              (after == turn || after == Sign::zero);
     };
-    for (const Triangle& k : corner_triangles(domain, f, point))
+    for (const Triangle& k : corner_triangles(domain, f, point, counted))
       if (lies_between(p[k[1]]) && lies_between(p[k[2]])) return true;
   }
   return false;

@@ -166,7 +166,7 @@ std::vector<Entry<3>> OptimizerRun::find_unexplained() {
   const std::vector<Entry<3>> poor = find_poor();
   std::vector<Entry<3>> unexplained;
   if (poor.empty()) return unexplained;
-  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, context.kept, claimed_cosine_);
+  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, context.kept, context.meshed, claimed_cosine_);
   for (const Entry<3>& e : poor) {
     if (context.ended()) break;
     const auto found = reasons.of_cells(std::array{e.cell}, PoorReason::Code::not_found, [] { return false; });
@@ -194,7 +194,7 @@ std::vector<PoorCell> OptimizerRun::explain_left() {
   context.stage = nullptr;
   std::vector<CellId> poor;
   for (const Entry<3>& e : find_poor()) poor.push_back(e.cell);
-  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, context.kept, claimed_cosine_);
+  OptimizedReasons reasons(context.mesh, context.domain, context.bounds, context.kept, context.meshed, claimed_cosine_);
   const auto otherwise = is_limited_ ? PoorReason::Code::budget : PoorReason::Code::not_found;
   std::vector<PoorCell> left = reasons.of_cells(poor, otherwise, [&context] { return context.ended(); });
   left_ = left.size();

@@ -11,7 +11,8 @@ template <int D>
 PoorSearch<D>::PoorSearch(RunState<D>& state, ViolationScan<D>& violations)
     : state_(&state),
       violations_(&violations),
-      reasons_(state.context.mesh, state.context.domain, state.context.bounds, state.context.kept, Bulk(state.pieces)) {}
+      reasons_(state.context.mesh, state.context.domain, state.context.bounds, state.context.kept, state.context.meshed,
+               Bulk(state.pieces)) {}
 
 /// For an assertion: large meshes are not looked at, lest debug builds take for ever, nor those of a run that has to end.
 template <int D>

@@ -333,7 +333,7 @@ void number_mesh(const RefineContext<D>& context, const RegionTable& regions, co
     poor.clear();
     if (!options.partial_mesh) return;
   }
-  GivenNames<D> names(context.domain, compacted.mesh);
+  GivenNames<D> names(context.domain, compacted.mesh, context.meshed);
   result.reasons.resize(poor.size());
   bulk.each(poor.size(),
             [&](std::size_t i) { result.reasons[i].cell = by_slots ? numbers[i] : compacted.cell_number(poor_vertices[i]); });
