@@ -97,17 +97,11 @@ TEST(RecoveryLimits, GoesOnWhileLessIsMissing) {
   EXPECT_GT(points, test::sanitized ? 1000u : 200000u);
 }
 
-/// Two boxes, turned, one 1e-9 above the other.
-Plc<3> narrow_gap() {
+/// Two boxes, one 1e-9 above the other, turned; `around`: in a third one, so that the gap is meshed.
+Plc<3> narrow_gap(bool around) {
   Plc<3> plc = test::cube();
-  Plc<3> upper = test::cube();
-  const auto first = static_cast<std::uint32_t>(plc.points.size());
-  for (const Point3& p : upper.points) plc.points.push_back({0.2 + 0.5 * p[0], 0.3 + 0.5 * p[1], 1 + 1e-9 + p[2]});
-  for (auto& f : upper.facets) {
-    for (auto& polygon : f.polygons)
-      for (std::uint32_t& v : polygon) v += first;
-    plc.facets.push_back(f);
-  }
+  test::add_box(plc, {{0.2, 0.3, 1 + 1e-9}}, {{0.7, 0.8, 2}});
+  if (around) test::add_box(plc, {{-1, -1, -1}}, {{3, 3, 3}});
   return test::turned<3>(plc, 0.37);
 }
 
@@ -116,12 +110,25 @@ TEST(RecoveryLimits, NarrowGapIsRefused) {
   RefineOptions<3> recovery;
   recovery.refine = false;
   try {
-    refine(narrow_gap(), recovery);
+    refine(narrow_gap(true), recovery);
     FAIL() << "not refused";
   } catch (const InputError& e) {
     EXPECT_EQ(e.code(), Errc::boundary_not_recovered);
     EXPECT_FALSE(e.diagnostic().ids.empty());
   }
+}
+
+// Parts of assemblies are a hair apart; each is an island (diagnose/islands.hpp).
+TEST(RecoveryLimits, NarrowGapThatIsNotMeshedNeedsFewPoints) {
+  const Plc<3> plc = narrow_gap(false);
+  const auto result = refine(plc, RefineOptions<3>{});
+  EXPECT_LT(result.statistics.segment_points + result.statistics.facet_points, 10u);
+  EXPECT_LT(result.mesh.cells.size(), 200u);
+  CheckOptions<3> options;
+  options.input = &plc;
+  options.reasons = &result.reasons;
+  const CheckReport report = check(result.mesh, options);
+  EXPECT_EQ(report.exit_code(), 0) << test::findings(report);
 }
 
 }  // namespace pgdr::test_boundary_recovery_limits

@@ -136,11 +136,12 @@ class Labeling {
       const CellId c{static_cast<std::uint32_t>(i)};
       if (mesh.alive(c) && mesh.is_ghost(c)) out.push_back(CellId{sets.find(index(c))});
     });
+    for (const CellId ghost : ghosts) sets.unite(index(ghosts.front()), index(ghost));  // of all islands
     const auto is_root = [&](std::uint32_t i) { return mesh.alive(CellId{i}) && sets.find(i) == i; };
     first_cells_ = bulk.gather<CellId>(component_.size(), [&](std::size_t i, std::vector<CellId>& out) {
       if (const auto c = static_cast<std::uint32_t>(i); is_root(c)) out.push_back(CellId{c});
     });
-    const auto at = std::find(first_cells_.begin(), first_cells_.end(), ghosts.front());
+    const auto at = std::find(first_cells_.begin(), first_cells_.end(), CellId{sets.find(index(ghosts.front()))});
     std::rotate(first_cells_.begin(), at, at + 1);
     for (std::uint32_t k = 0; k < first_cells_.size(); ++k) component_[index(first_cells_[k])] = k;
     bulk.each(component_.size(), [&](std::size_t i) {
@@ -154,9 +155,12 @@ class Labeling {
   CellId first_cell(std::uint32_t component) const { return first_cells_[component]; }
   std::span<const std::uint32_t> of_cells() const { return component_; }
 
-  /// Component of a point that is on no wall; 0 if it lies outside.
-  std::uint32_t find(const Point<D>& p) const {
-    return component(locate<D>(mesh_, p, delaunay_.cell_at(delaunay_.vertices()[0])));
+  /// Component of a point that is on no wall, in the first of these islands that encloses it; 0 if none does.
+  std::uint32_t find(const Point<D>& p, std::span<const std::uint32_t> islands) const {
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < islands.size() && found == 0; ++i)
+      found = component(locate<D>(mesh_, p, delaunay_.cell_at(delaunay_.first_vertices()[islands[i]])));
+    return found;
   }
 
  private:
@@ -177,11 +181,12 @@ class Labeling {
 template <int D>
 class Regions {
  public:
-  Regions(const Mesh<D>& mesh, const Labeling<D>& labeling, const Domain<D>& domain, std::vector<Diagnostic>& warnings,
-          const detail::Bulk& bulk)
+  Regions(const Mesh<D>& mesh, const Labeling<D>& labeling, const Domain<D>& domain, const detail::Islands& islands,
+          std::vector<Diagnostic>& warnings, const detail::Bulk& bulk)
       : mesh_(mesh),
         labeling_(labeling),
         domain_(domain),
+        islands_(islands),
         bulk_(bulk),
         warnings_(warnings),
         removed_(labeling.components(), false),
@@ -194,7 +199,7 @@ class Regions {
     const std::vector<Seed<D>> seeds = seeds_of(domain_);
     refuse_seeds_on_walls(domain_, seeds, bulk_);
     for (const Seed<D>& seed : seeds) {
-      const std::uint32_t c = labeling_.find(seed.point);
+      const std::uint32_t c = labeling_.find(seed.point, islands_at(seed));
       if (seed.of_hole)
         place_hole(seed, c);
       else
@@ -212,6 +217,12 @@ class Regions {
 
  private:
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+  std::span<const std::uint32_t> islands_at(const Seed<D>& seed) const {
+    static constexpr std::uint32_t only = 0;
+    if (islands_.count == 1) return {&only, 1};
+    return (seed.of_hole ? islands_.of_hole : islands_.of_region)[seed.index];
+  }
 
   void warn(const Seed<D>& seed, const char* what, const char* of_cells) {
     warnings_.push_back(seed.diagnostic(domain_, Errc::seed_on_boundary, what, of_cells));
@@ -296,6 +307,7 @@ class Regions {
   const Mesh<D>& mesh_;
   const Labeling<D>& labeling_;
   const Domain<D>& domain_;
+  const detail::Islands& islands_;
   const detail::Bulk& bulk_;
   std::vector<Diagnostic>& warnings_;
   RegionTable table_;
@@ -308,10 +320,11 @@ class Regions {
 
 template <int D>
 RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<D>& delaunay, const Domain<D>& domain,
-                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces) {
+                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces,
+                  const detail::Islands& islands) {
   const detail::Bulk bulk(pieces);
   const Labeling<D> labeling(mesh, delaunay, bulk);
-  Regions<D> regions(mesh, labeling, domain, warnings, bulk);
+  Regions<D> regions(mesh, labeling, domain, islands, warnings, bulk);
   RegionTable table = regions.run(mode);
 
   const auto is_doomed = [&](CellId c) { return regions.removed(labeling.component(c)); };
@@ -332,8 +345,8 @@ RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<
 }
 
 template RegionTable carve<2>(Mesh<2>&, Mesh<2>::Pools&, const Delaunay<2>&, const Domain<2>&, RegionMode,
-                              std::vector<Diagnostic>&, const detail::Pieces&);
+                              std::vector<Diagnostic>&, const detail::Pieces&, const detail::Islands&);
 template RegionTable carve<3>(Mesh<3>&, Mesh<3>::Pools&, const Delaunay<3>&, const Domain<3>&, RegionMode,
-                              std::vector<Diagnostic>&, const detail::Pieces&);
+                              std::vector<Diagnostic>&, const detail::Pieces&, const detail::Islands&);
 
 }  // namespace pgdr

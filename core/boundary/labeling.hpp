@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cavity/delaunay.hpp"
+#include "diagnose/islands.hpp"
 #include "mesh/mesh.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/region_mode.hpp"
@@ -22,12 +23,13 @@ struct RegionTable {
 };
 
 /// Floods the cells through unconstrained faces: what reaches the ghosts is outside, what a hole seed reaches is a hole,
-/// and so is what `mode` makes void. Frees these cells and all ghosts; the faces left open have no link.
-/// `pieces` run the passes over all cells; the result does not depend on them.
+/// and so is what `mode` makes void. `islands`: as `delaunay` has them; seeds are looked for in these. Frees these cells and all
+/// ghosts; the faces left open have no link. `pieces` run the passes over all cells; the result does not depend on them.
 /// @throws InputError encloses_nothing (with the open boundaries of the input), seed_on_boundary, conflicting_seeds;
 ///   ResourceError ids_exhausted. `warnings` gets seeds that lie outside, and region seeds in holes.
 template <int D>
 RegionTable carve(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Delaunay<D>& delaunay, const Domain<D>& domain,
-                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces = detail::OneByOne());
+                  RegionMode mode, std::vector<Diagnostic>& warnings, const detail::Pieces& pieces = detail::OneByOne(),
+                  const detail::Islands& islands = {});
 
 }  // namespace pgdr

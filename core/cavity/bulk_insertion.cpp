@@ -60,7 +60,7 @@ void BulkInsertion<D>::find_hints(Lane& lane, std::span<const std::uint32_t> ran
   constexpr std::uint32_t reach = 8;  // numbers
   const VertexClaim<D> claim = claim_of(lane);
   const auto owned_at = [&](std::uint32_t v) {
-    const CellId c = v < cell_at_->size() && claim.has(VertexId{v}) ? (*cell_at_)[v] : no_cell;
+    const CellId c = range_.has(v) && claim.has(VertexId{v}) ? (*cell_at_)[v] : no_cell;
     return c != no_cell && claim.owns(mesh_->cell(c).vertices) ? c : no_cell;
   };
   lane.hint = no_cell;

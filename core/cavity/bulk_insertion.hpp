@@ -22,15 +22,22 @@
 
 namespace pgdr::detail {
 
+/// Numbers of vertices, from the first one up to, but without, the last.
+struct VertexRange {
+  std::uint32_t first, last;
+  bool has(std::uint32_t v) const { return first <= v && v < last; }
+};
+
 /// See above. One thread calls it.
 template <int D>
 class BulkInsertion {
  public:
   using Pools = typename Mesh<D>::Pools;
 
-  /// `cell_at`: of each vertex a cell that has it, or no_cell; kept up to date. All must outlive it.
-  BulkInsertion(Mesh<D>& mesh, std::vector<CellId>& cell_at, const Pieces& pieces, std::stop_token stop)
-      : mesh_(&mesh), cell_at_(&cell_at), pieces_(&pieces), stop_(std::move(stop)) {}
+  /// `cell_at`: of each vertex a cell that has it, or no_cell; kept up to date. `range`: of the vertices of the triangulation
+  /// that is added to, which need not be the only one in the mesh. All must outlive it.
+  BulkInsertion(Mesh<D>& mesh, std::vector<CellId>& cell_at, VertexRange range, const Pieces& pieces, std::stop_token stop)
+      : mesh_(&mesh), cell_at_(&cell_at), range_(range), pieces_(&pieces), stop_(std::move(stop)) {}
 
   /// Inserts vertices that are in no cell, given by number. Returns those that it did not, by number: all, where few could be
   /// inserted at one time.
@@ -68,6 +75,7 @@ class BulkInsertion {
 
   Mesh<D>* mesh_;
   std::vector<CellId>* cell_at_;
+  VertexRange range_;
   const Pieces* pieces_;
   std::stop_token stop_;
   std::vector<std::unique_ptr<Lane>> lanes_;

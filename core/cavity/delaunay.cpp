@@ -24,27 +24,38 @@ CellId locate(const Mesh<D>& mesh, const Point<D>& p, CellId hint) {
 }
 
 template <int D>
-bool Delaunay<D>::first_simplex(std::span<const Point<D>> points, std::array<std::uint32_t, D + 1>& corners) const {
-  if (points.size() < D + 1) return false;
-  corners[0] = 0;
-  corners[1] = 1;  // the points are distinct
-  std::uint32_t next = 2;
+bool Delaunay<D>::first_simplex(std::span<const Point<D>> points, Island& island) {
+  const auto& given = island.given;
+  auto& corners = island.corners;
+  if (given.size() < D + 1) return false;
+  corners[0] = given[0];
+  corners[1] = given[1];  // the points are distinct
+  std::size_t next = 2;
   if constexpr (D == 3) {
-    while (next < points.size() && collinear<3>(points[0], points[1], points[next])) ++next;
-    if (next == points.size()) return false;
-    corners[2] = next++;
+    while (next < given.size() && collinear<3>(points[given[0]], points[given[1]], points[given[next]])) ++next;
+    if (next == given.size()) return false;
+    corners[2] = given[next++];
   }
-  for (; next < points.size(); ++next) {
+  for (; next < given.size(); ++next) {
     Simplex<D> s;
     for (int i = 0; i < D; ++i) s[i] = points[corners[i]];
-    s[D] = points[next];
+    s[D] = points[given[next]];
     const Sign side = orient<D>(s);
     if (side == Sign::zero) continue;
-    corners[D] = next;
+    corners[D] = given[next];
     if (side == Sign::negative) std::swap(corners[0], corners[1]);
     return true;
   }
   return false;
+}
+
+template <int D>
+auto Delaunay<D>::islands_of(std::span<const std::uint32_t> island, const CurveOrder& order) -> std::vector<Island> {
+  const auto of = [&](std::uint32_t p) { return island.empty() ? 0 : island[p]; };
+  std::vector<Island> all(island.empty() ? 1 : *std::max_element(island.begin(), island.end()) + 1);
+  for (std::uint32_t p = 0; p < order.points.size(); ++p) all[of(p)].given.push_back(p);
+  for (std::uint32_t k = 0; k < order.points.size(); ++k) all[of(order.points[k])].along.push_back(k);
+  return all;
 }
 
 template <int D>
@@ -82,24 +93,32 @@ void Delaunay<D>::make_first_cells(const std::array<std::uint32_t, D + 1>& corne
 }
 
 template <int D>
-bool Delaunay<D>::build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop) {
+bool Delaunay<D>::build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop,
+                        std::span<const std::uint32_t> island) {
   const detail::Bulk bulk(pieces, stop);
   vertices_.assign(points.size(), no_vertex);
-  std::array<std::uint32_t, D + 1> corners;
-  if (!first_simplex(points, corners)) return false;
+  if (points.empty()) return false;
   const CurveOrder order = curve_order<D>(points, bulk);
   if (stop.stop_requested()) return true;
-  make_vertices(points, order, detail::Bulk(pieces));  // all, whatever is requested: the first cells have some
-  make_first_cells(corners);
-  insert_rounds(order, vertices_[corners[0]], pieces, stop);
+  std::vector<Island> islands = islands_of(island, order);
+  for (Island& i : islands)
+    if (!first_simplex(points, i)) return false;
+  make_vertices(points, islands, order, detail::Bulk(pieces));  // all, whatever is requested: the first cells have some
+  for (const Island& i : islands) {
+    first_vertices_.push_back(vertices_[i.corners[0]]);
+    make_first_cells(i.corners);
+    insert_rounds(i, order, pieces, stop);
+  }
   return true;
 }
 
-/// All vertices, numbered along the curve, in no cell yet.
+/// All vertices, numbered along the curve, island by island, in no cell yet.
 template <int D>
-void Delaunay<D>::make_vertices(std::span<const Point<D>> points, const CurveOrder& order, const detail::Bulk& bulk) {
+void Delaunay<D>::make_vertices(std::span<const Point<D>> points, std::span<const Island> islands, const CurveOrder& order,
+                                const detail::Bulk& bulk) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (std::size_t k = 0; k < points.size(); ++k) vertices_[order.points[k]] = VertexId{pools_->vertices.take()};
+  for (const Island& island : islands)
+    for (const std::uint32_t k : island.along) vertices_[order.points[k]] = VertexId{pools_->vertices.take()};
   bulk.each(points.size(), [&](std::size_t p) {
     mesh_->vertex(vertices_[p]) = {points[p], Home(EntityKind::vertex, static_cast<EntityId>(p)), infinity};
   });
@@ -107,13 +126,15 @@ void Delaunay<D>::make_vertices(std::span<const Point<D>> points, const CurveOrd
 }
 
 template <int D>
-void Delaunay<D>::insert_rounds(const CurveOrder& order, VertexId first, const detail::Pieces& pieces,
+void Delaunay<D>::insert_rounds(const Island& island, const CurveOrder& order, const detail::Pieces& pieces,
                                 const std::stop_token& stop) {
-  detail::BulkInsertion<D> side_by_side(*mesh_, cell_at_, pieces, stop);
+  const VertexId first = vertices_[order.points[island.along.front()]];
+  const detail::VertexRange range{index(first), static_cast<std::uint32_t>(index(first) + island.along.size())};
+  detail::BulkInsertion<D> side_by_side(*mesh_, cell_at_, range, pieces, stop);
   std::vector<std::vector<VertexId>> rounds(static_cast<std::size_t>(order.round_count));
-  for (std::size_t k = 0; k < order.points.size(); ++k)
+  for (const std::uint32_t k : island.along)
     if (const VertexId v = vertices_[order.points[k]]; cell_at(v) == no_cell) rounds[order.rounds[k]].push_back(v);
-  VertexId near = first;
+  VertexId near = vertices_[island.corners[0]];
   std::vector<VertexId> waiting;
   for (auto& round : rounds) {
     const auto middle = static_cast<std::ptrdiff_t>(waiting.size());

@@ -35,7 +35,10 @@ class Delaunay {
   /// Triangulates distinct points; vertex k of the result is points[k], at home at input vertex k. False (and no cell)
   /// if the points lie in one line (2D) or plane (3D). Ends early, with some of the points, once `stop` is requested.
   /// Many points go in side by side, as pieces. The mesh does not depend on the threads, and neither do its slots.
-  bool build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop = {});
+  /// @param island  of each point, from 0 on without gaps: each island is triangulated by itself, closed by ghosts of its own, in
+  ///   the same mesh; empty: one for all. False if the points of any lie in one plane.
+  bool build(std::span<const Point<D>> points, const detail::Pieces& pieces, const std::stop_token& stop = {},
+             std::span<const std::uint32_t> island = {});
   /// The same on the calling thread.
   bool build(std::span<const Point<D>> points) { return build(points, detail::OneByOne()); }
 
@@ -49,14 +52,24 @@ class Delaunay {
 
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }
+  /// Of each island one of its vertices.
+  const std::vector<VertexId>& first_vertices() const { return first_vertices_; }
   /// A cell at v (v < vertex bound).
   CellId cell_at(VertexId v) const { return cell_at_[index(v)]; }
 
  private:
-  bool first_simplex(std::span<const Point<D>> points, std::array<std::uint32_t, D + 1>& corners) const;
-  void make_vertices(std::span<const Point<D>> points, const CurveOrder& order, const detail::Bulk& bulk);
+  /// The points of an island along the curve, and the rounds of these; and its first simplex.
+  struct Island {
+    std::vector<std::uint32_t> given;  ///< its points, ascending
+    std::vector<std::uint32_t> along;  ///< places in the CurveOrder
+    std::array<std::uint32_t, D + 1> corners{};
+  };
+  static std::vector<Island> islands_of(std::span<const std::uint32_t> island, const CurveOrder& order);
+  static bool first_simplex(std::span<const Point<D>> points, Island& island);
+  void make_vertices(std::span<const Point<D>> points, std::span<const Island> islands, const CurveOrder& order,
+                     const detail::Bulk& bulk);
   void make_first_cells(const std::array<std::uint32_t, D + 1>& corners);
-  void insert_rounds(const CurveOrder& order, VertexId first, const detail::Pieces& pieces, const std::stop_token& stop);
+  void insert_rounds(const Island& island, const CurveOrder& order, const detail::Pieces& pieces, const std::stop_token& stop);
   VertexId insert_all(std::span<const VertexId> vertices, VertexId near, const std::stop_token& stop);
   /// Collects the cavity of p, or returns the vertex that is there already.
   VertexId prepare(const Point<D>& p, CellId hint);
@@ -66,7 +79,7 @@ class Delaunay {
   Mesh<D>* mesh_;
   typename Mesh<D>::Pools* pools_;
   Cavity<D> cavity_;
-  std::vector<VertexId> vertices_;
+  std::vector<VertexId> vertices_, first_vertices_;
   std::vector<CellId> cell_at_;
   std::vector<detail::ChangedCells*> listeners_;
 };

@@ -30,6 +30,7 @@ class MeshedSpace {
   /// Points are in unit scale here and below. @throws CancelledError
   MeshedSpace(const NearPieces<D>& pieces, bool voids_by_nesting, const Bulk& bulk, const StopCheck& stop_check);
 
+  const WallVolumes<D>& walls() const { return walls_; }
   const FirstHits<D>& hits() const { return walls_.hits(); }              ///< of the walls
   std::span<const Volume> volumes() const { return volumes_; }            ///< the outside first
   const Volume& volume_beside(std::uint32_t wall, bool negative) const {  ///< on its positive or negative side

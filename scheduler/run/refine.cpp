@@ -32,6 +32,7 @@
 #include "run/kept_boundary.hpp"
 #include "run/refinement.hpp"
 #include "run/unused_points.hpp"
+#include "run/valid_options.hpp"
 #include "size/region_sizes.hpp"
 #include "visits/cell_parts.hpp"
 #include "visits/deadline.hpp"
@@ -43,44 +44,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double most_practical_dihedral = 30;  // degrees
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
-
-[[noreturn]] void bad_option(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
-
-template <int D>
-void validate(const RefineOptions<D>& options) {
-  if (!(options.radius_edge_bound > 0)) bad_option("the radius-edge bound must be positive");
-  if (options.size.is_constant() && !(options.size.at({}) > 0)) bad_option("the size must be positive");
-  for (const RegionSize<D>& s : options.region_sizes)
-    if (s.size.is_constant() && !(s.size.at({}) > 0))
-      bad_option("the size of the region with label " + detail::label_words(s.label) + " must be positive");
-  if (!(options.max_volume > 0)) bad_option("the volume bound must be positive");
-  if (D == 2 && options.max_volume < std::numeric_limits<double>::infinity())
-    bad_option("the volume bound is for 3D; in 2D the size bounds the area");
-  if (!(options.min_edge >= 0)) bad_option("the shortest edge allowed must not be negative");
-  if (options.time_limit && !(options.time_limit->count() >= 0)) bad_option("the time limit must not be negative");
-  if (options.min_dihedral && !(*options.min_dihedral >= 0 && *options.min_dihedral <= most_min_dihedral))
-    bad_option("the bound on dihedral angles must lie between 0 and " + detail::to_text(most_min_dihedral) + " degrees");
-  if (!options.refine && options.min_dihedral.value_or(0) > 0)
-    bad_option("a bound on dihedral angles needs the refinement: the optimiser follows it");
-  if (D == 2 && options.min_dihedral.value_or(0) > 0)
-    bad_option("the bound on dihedral angles is for 3D; in 2D the radius-edge bound is one on angles");
-  if (!options.kept_markers.empty() && !options.keep_boundary) bad_option("kept markers need that the boundary is kept");
-  if (options.conforming_delaunay && (D == 3 || !options.refine || options.keep_boundary))
-    bad_option(
-        "a conforming Delaunay mesh is made in 2D only, with refinement, and splits segments: the boundary cannot be kept");
-  if (options.schedule.threads < 0) bad_option("the number of threads must not be negative");
-  if (options.schedule.granularity < 1) bad_option("the granularity must be at least 1");
-  if (!(options.schedule.split_ratio > 0)) bad_option("the split ratio must be positive");
-  if (options.schedule.lattice < 0 || options.schedule.lattice > most_lattice<D>())
-    bad_option("the lattice must lie between 1 and " + std::to_string(most_lattice<D>()));
-  const bool is_uniform = options.schedule.schedule == Schedule::uniform;
-  if (options.schedule.lattice > 0 && !is_uniform) bad_option("a lattice is for the uniform schedule");
-  if (is_uniform && options.schedule.claims != ClaimRule::boxes) bad_option("the uniform schedule claims boxes");
-  const double delta = options.disk.delta;
-  if (delta != 0 && options.disk.type == DiskType::type1) bad_option("delta is for disks of type 2");
-  if (delta != 0 && !(delta >= smallest_proved_bound<D>() / options.radius_edge_bound && delta <= 1))
-    bad_option("delta must lie between " + detail::to_text(smallest_proved_bound<D>()) + " / radius-edge bound and 1");
-}
 
 /// The optimiser's target in degrees; 0: there is no optimiser.
 template <int D>
@@ -207,9 +170,15 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   detail::RunClock& clock = pieces.clock();
   Delaunay<D> delaunay(mesh, pools);
   bool is_solid = false;
-  {
+  detail::Islands islands;
+  try {
     const detail::RunClock::Stage timed(clock, "triangulate");
-    is_solid = delaunay.build(domain.points(), pieces, deadline.token());
+    islands = detail::islands_of<D>(domain, options.regions == RegionMode::automatic, detail::Bulk(pieces, deadline.token()),
+                                    detail::StopCheck(deadline.token()));
+    is_solid = delaunay.build(domain.points(), pieces, deadline.token(), islands.of_point);
+  } catch (const CancelledError&) {
+    result.stop = deadline.cause();
+    return {};
   }
   if (!is_solid)
     throw InputError({Errc::no_volume, D == 3 ? "all points lie in one plane" : "all points lie on one line", {}, 0, {}, {}});
@@ -223,7 +192,7 @@ RegionTable make_initial(Mesh<D>& mesh, typename Mesh<D>::Pools& pools, const Do
   }
   if (result.stop != StopCause::finished) return {};
   std::optional<detail::RunClock::Stage> timed(std::in_place, clock, "carve");
-  RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings, pieces);
+  RegionTable regions = carve<D>(mesh, pools, delaunay, domain, options.regions, result.warnings, pieces, islands);
   if constexpr (D == 3)
     if (options.keep_boundary) {
       timed.emplace(clock, "withdraw");
@@ -390,7 +359,7 @@ template <int D>
 RefineResult<D> run(const Domain<D>& domain, const RefineOptions<D>& options, Clock::time_point start,
                     const detail::Deadline& deadline, const detail::RunPieces& pieces,
                     const detail::RunHooks<D>* hooks = nullptr) {
-  if (domain.points().empty()) bad_option("the Domain is empty: it was moved from");
+  if (domain.points().empty()) detail::bad_option("the Domain is empty: it was moved from");
   const PredicateCounts predicates_before = predicate_counts();
   RefineResult<D> before;
   before.repairs = domain.repairs();
@@ -465,7 +434,7 @@ template <int D>
 RefineResult<D> refine(const Domain<D>& domain, const RefineOptions<D>& options) {
   return with_typed_errors([&] {
     const detail::DefaultFloats floats;
-    validate(options);
+    detail::validate<D>(options);
     const auto start = Clock::now();
     detail::RunClock clock(start);
     return run<D>(domain, options, start, detail::Deadline(options, start), {options.schedule, clock});
@@ -476,7 +445,7 @@ template <int D>
 RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
   return with_typed_errors([&] {
     const detail::DefaultFloats floats;
-    validate(options);
+    detail::validate<D>(options);
     return prepare_and_run<D>(plc, options, Clock::now(), nullptr);
   });
 }
@@ -484,7 +453,7 @@ RefineResult<D> refine(const Plc<D>& plc, const RefineOptions<D>& options) {
 template <int D>
 RefineResult<D> detail::refine_with(const Plc<D>& plc, const RefineOptions<D>& options, const RunHooks<D>& hooks) {
   const DefaultFloats floats;
-  validate(options);
+  detail::validate<D>(options);
   return prepare_and_run<D>(plc, options, Clock::now(), &hooks);
 }
 

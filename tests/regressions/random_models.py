@@ -269,8 +269,34 @@ def crossing_boxes(rng):
     return s, len(filled)
 
 
+def hair_gaps(rng):
+    """Bodies with a gap between them that is as thin as a hair and that nobody wants to be meshed: side by side, with faces of other
+    outlines, or one in the void of another, by nesting or with a hole seed."""
+    s, hair, size = Shape(3), 10 ** rng.uniform(-6, -2), 10
+    between = lambda low, high: round(rng.uniform(low, high), 3)
+    if rng.random() < 0.5:
+        room, body = ((2, 2, 2), (8, 8, 8)), ((2 + hair, between(3, 5), 2 + hair), (between(4, 7), 8 - hair, between(3, 6)))
+        s.box((0, 0, 0), (size, size, size))
+        s.box(*room)
+        s.box(*body)
+        if rng.random() < 0.5:
+            s.holes.append((7.5, 2.5, 7))
+        else:
+            s.flags = ["--regions", "auto"]
+        return s, size ** 3 - volume(room) + volume(body)
+    bodies = [((0, 0, 0), (size, size, size))]
+    for axis, side in rng.sample([(axis, side) for axis in range(3) for side in (0, 1)], rng.randint(1, 4)):
+        low = [between(1, 5), between(1, 5), between(1, 5)]
+        high = [x + between(1, 4) for x in low]  # opposite to a face of the first body, and to no other
+        low[axis], high[axis] = (size + hair, size + between(2, 5)) if side else (-between(2, 5), -hair)
+        bodies.append((tuple(low), tuple(high)))
+    for body in bodies:
+        s.box(*body)
+    return s, sum(map(volume, bodies))
+
+
 KINDS = {make.__name__: make for make in (voids_on_floor, auto_voids, floating_voids, bodies_on_plate, tents_on_plate, plates, city,
-                                          doors, given_twice, divided, crossing_boxes)}
+                                          doors, given_twice, divided, crossing_boxes, hair_gaps)}
 
 
 def in_triangles(given, rng):
