@@ -56,7 +56,7 @@ ROOMS = {
     },
     "core": {
         "output": Room("what is a finished mesh?", "", "mesh_maps.cpp",
-                       "output_mesh mesh_fields mesh_maps mesh_piece region_mode region_volume remesh_input poor_reason flat_arrays"),
+                       "output_mesh mesh_fields mesh_maps mesh_piece region_mode region_volume remesh_input poor_reason flat_arrays voronoi"),
         "weld": Room("do meshes, or sides of one, match, and what is one mesh of them?", "output", "boundaries.cpp", "mesh_join periodic"),
         "quality": Room("how good is a finished mesh?", "output", "quality.cpp", "quality"),
         "size": Room("how large may a cell be here?", "output", "size_fields.cpp", "sizing size_fields"),

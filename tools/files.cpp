@@ -72,6 +72,10 @@ void require_format(const MeshArguments& a) {
   if (a.order == 2 && (!has_extension(a.output, {".msh", ".vtu", ".inp"}) || !a.periodic.empty()))
     refuse("--order 2 is for .msh, .vtu and .inp, without --periodic");
   if (a.pieces && !has_extension(a.output, {".pvtu"})) refuse("--pieces is for .pvtu");
+  if (a.voronoi.empty()) return;
+  if (!has_extension(a.voronoi, {".voronoi"}))
+    throw UsageError({.code = Errc::bad_option, .message = "Voronoi cells are written as .voronoi", .file = a.voronoi});
+  require_writable(a.voronoi);
 }
 
 WriteOptions write_options(const MeshArguments& a, std::uint32_t first_index_of_input) {

@@ -28,6 +28,7 @@
 #include "pgdr/io.hpp"
 #include "pgdr/make_periodic.hpp"
 #include "pgdr/output_files.hpp"
+#include "pgdr/voronoi.hpp"
 #include "proposal.hpp"
 #include "ranks.hpp"
 #include "signals.hpp"
@@ -45,6 +46,8 @@ void require_ranks(const MeshArguments& a, const Ranks& ranks) {
   if (a.rank_timeout && !ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--rank-timeout is for pgdr-mpi"});
   if (a.remesh && ranks.transport()) throw UsageError({.code = Errc::bad_option, .message = "remesh is not for pgdr-mpi"});
+  if (!a.voronoi.empty() && ranks.transport())
+    throw UsageError({.code = Errc::bad_option, .message = "--voronoi is for one process"});
 }
 
 /// One run: read, mesh, write, print. Each step puts into the report what it knows.
@@ -81,6 +84,7 @@ class MeshRun {
     });
     const std::optional<Proposal> proposal = write(measured.cells > 0);
     if (!ranks_.is_first()) return exit_code();
+    if constexpr (D == 2) write_cells();
     report_seconds();
     print(measured);
     give(proposal, a_.quiet, report_);
@@ -306,6 +310,16 @@ class MeshRun {
     else
       pgdr::write_mesh(result_.mesh, fields_, a_.output, how);
     if (ranks_.is_first()) report_.mesh_files = std::move(mesh_files);
+  }
+
+  /// The Voronoi cells, where they are asked for. A mesh that is not finished does not have them.
+  void write_cells() requires(D == 2) {
+    if (a_.voronoi.empty() || result_.stop != StopCause::finished) return;
+    const VoronoiCells cells = voronoi_cells(result_.mesh);
+    write_file(a_.voronoi, [&](std::ostream& out) { write_voronoi(out, cells); });
+    report_.mesh_files.push_back(a_.voronoi);
+    report_.set("voronoi", JsonObject{{"cells", cells.sites.size()}, {"points", cells.points.size()}});
+    seconds_.write = total_.seconds() - seconds_.write_at;
   }
 
   double seconds_of_surface() const { return surface_ ? surface_->replaced.report.seconds : 0; }

@@ -178,6 +178,10 @@ void add_run(CLI::App& app, MeshArguments& a) {
   app.add_flag("--conforming-delaunay", a.conforming_delaunay,
                "2D: split segments until every triangle is Delaunay across them, too, and its circumcentre in the domain")
       ->excludes(keep);
+  app.add_option("--voronoi", a.voronoi,
+                 "2D: write the Voronoi cells of the vertices, too, clipped to the domain, as a text: .voronoi")
+      ->type_name("FILE")
+      ->needs("--conforming-delaunay");
   app.add_flag("--drop-unused-points", a.drop_unused_points,
                "leave points that are in no cell, outside or in voids, out of the mesh");
   app.add_flag("--no-refine", a.no_refine,
@@ -227,6 +231,7 @@ void add_run(CLI::App& app, MeshArguments& a) {
       ->check(whole_number(1, std::numeric_limits<int>::max()));
   app.add_option("--min-edge", a.min_edge, "refuse points that would make an edge shorter than this, and say so")
       ->type_name("E")
+      ->excludes("--voronoi")
       ->check(number(">= 0", not_negative));
   app.add_option("--max-vertices", a.max_vertices, "stop with a valid partial mesh at this number of vertices")
       ->type_name("N")

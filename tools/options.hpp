@@ -74,6 +74,7 @@ struct MeshArguments {
   InputArguments reading;
   SurfaceArguments surface;
   bool conforming_delaunay = false;  ///< 2D
+  std::string voronoi;               ///< 2D: the file of Voronoi cells; empty: none
   KeptArguments kept;
   bool no_refine = false, no_optimize = false, drop_unused_points = false;
   std::optional<std::string> selector;  ///< NAME or NAME:PARAMETER (selector.hpp); none: as usual for the dimension

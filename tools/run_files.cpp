@@ -73,6 +73,7 @@ RunFiles::RunFiles(const Arguments& arguments) {
       all.neighbors = a.neighbors;
       all.pieces = static_cast<std::uint32_t>(a.pieces.value_or(0));
       for (const std::string& file : files_of_mesh(a.output, all)) outputs_.push_back({file, "the output"});
+      if (!a.voronoi.empty()) outputs_.push_back({a.voronoi, "the file of Voronoi cells"});
       if (!a.trace.empty()) outputs_.push_back({a.trace, "the trace"});
     } else if constexpr (std::is_same_v<A, CheckArguments>) {
       read(a.mesh, "the mesh");

@@ -52,4 +52,5 @@
 #include "pgdr/transport.hpp"
 #include "pgdr/types.hpp"
 #include "pgdr/version.hpp"
+#include "pgdr/voronoi.hpp"
 #include "pgdr/whole_facets.hpp"

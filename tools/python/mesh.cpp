@@ -16,6 +16,8 @@
 #include "mesh_data.hpp"
 #include "pgdr/io.hpp"
 #include "pgdr/mesh_maps.hpp"
+#include "pgdr/output_files.hpp"
+#include "pgdr/voronoi.hpp"
 #include "reports.hpp"
 #include "words.hpp"
 
@@ -231,11 +233,47 @@ void bind(py::module_& module) {
   });
 }
 
+/// Numbers as numpy has them.
+template <class Number>
+py::array longs(const std::vector<Number>& numbers) {
+  return own(std::vector<std::int64_t>(numbers.begin(), numbers.end()));
+}
+
+void bind_voronoi(py::module_& module) {
+  module.def("voronoi_cells", [](const MeshData<2>& data) {
+    VoronoiCells made;
+    {
+      const py::gil_scoped_release others_run;
+      made = voronoi_cells(data.mesh);
+    }
+    std::vector<std::array<std::int64_t, 2>> links;
+    for (const auto& [a, b] : made.links) links.push_back({a, b});
+    std::vector<std::array<double, 2>> points;
+    for (const Point2& p : made.points) points.push_back(p.x);
+    return py::make_tuple(own(std::move(points)), longs(made.offsets), longs(made.corners), own(std::move(made.areas)),
+                          own(std::move(links)), own(std::move(made.widths)), own(std::move(made.lengths)));
+  });
+  module.def("write_voronoi", [](const Dense<double>& sites, const Dense<double>& points, const Dense<std::int64_t>& offsets,
+                                 const Dense<std::int64_t>& corners, const std::string& file) {
+    VoronoiCells cells;
+    cells.sites = points_of<2>(sites);
+    cells.points = points_of<2>(points);
+    for (const std::int64_t at : span_of(offsets)) cells.offsets.push_back(static_cast<std::size_t>(at));
+    for (const std::int64_t row : span_of(corners)) cells.corners.push_back(static_cast<std::uint32_t>(row));
+    if (cells.offsets.size() != cells.sites.size() + 1 || !std::ranges::is_sorted(cells.offsets) ||
+        cells.offsets.back() != cells.corners.size())
+      bad_argument("the offsets of Voronoi cells are not those of their corners");
+    const py::gil_scoped_release others_run;
+    write_file(file, [&](std::ostream& out) { write_voronoi(out, cells); });
+  });
+}
+
 }  // namespace
 
 void bind_mesh(py::module_& module) {
   bind<2>(module);
   bind<3>(module);
+  bind_voronoi(module);
 }
 
 }  // namespace pgdr::python
