@@ -87,6 +87,8 @@ void fill(Report& report, const MeshArguments& a, const Threads& threads, const 
   report.set("insertions", JsonObject{{"committed", s.insertions_committed}, {"refused", s.insertions_refused}});
   report.set("predicates", to_json(s.predicates));
   report.set("selector_outside", s.selector_outside);
+  report.set("selector_further", s.selector_further);
+  report.set("selector_dropped", s.selector_dropped);
   report.set("warnings", to_json(r.warnings));
   report.set("repairs", to_json(r.repairs));
 }

@@ -202,7 +202,7 @@ class Files(Case):
 class Mesh(Case):
     KEYS = {"version", "input", "dimension", "vertices", "cells", "threads", "schedule", "reproducible", "selector",
             "seconds", "peak_rss_bytes", "quality", "bounds", "scheduler", "insertions", "predicates", "errors", "warnings",
-            "repairs", "selector_outside", "delaunay", "stages"}
+            "repairs", "selector_outside", "selector_further", "selector_dropped", "delaunay", "stages"}
 
     def test_report(self):
         for model, dimension in ((BRACKET, 3), (PLATE, 2)):

@@ -29,6 +29,7 @@ class Selectors(Case):
                     report, mesh = self.made(model, "--radius-edge", "3", "--selector", name)
                     self.assertEqual(report["selector"], name)
                     self.assertEqual(report["selector_outside"], 0)
+                    self.assertEqual((report["selector_further"], report["selector_dropped"]), (0, 0))  # one point each
                     seen.add(mesh)
             self.assertGreaterEqual(len(seen), 3 if model in (BRACKET, PLATE) else 7)
 
