@@ -30,6 +30,7 @@
 #include "pgdr/output_files.hpp"
 #include "pgdr/output_mesh.hpp"
 #include "pgdr/periodic.hpp"
+#include "pgdr/planar_map.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "pgdr/plc.hpp"
 #include "pgdr/point_selector.hpp"

@@ -3,6 +3,7 @@
 """Scripts as users of other packages have them, with the import changed: pgdr.tetgen, pgdr.triangle, PyVista's accessor, Shapely and
 GeoPandas. Where PyVista, Shapely or matplotlib is not installed, something small stands in that refuses wrong calls."""
 import importlib
+import json
 import os
 import sys
 import tempfile
@@ -362,6 +363,41 @@ class Geodata(unittest.TestCase):
         near = pgdr.mesh(pgdr.Plc.from_shapely([LAND, BAY]), min_angle=25)
         made, _ = self.meshed(pgdr.Plc.from_shapely([moved(LAND), moved(BAY)]), {1.0: 15.0, 2.0: 4.0}, min_angle=25)
         self.assertLess(abs(len(made.cells) - len(near.cells)), 0.2 * len(near.cells) + 5)
+
+    def assert_one_input(self, rows, **columns):
+        """A file of GeoJSON, with --resolve-crossings, and the rows as geometries are one input, to the last bit."""
+        keys = {"labels": "label", "sizes": "size", "names": "name", "markers": "marker"}
+        features = [{"type": "Feature", "geometry": row, "properties": {keys[name]: values[i] for name, values in columns.items()}}
+                    for i, row in enumerate(rows)]
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "map.geojson")
+            with open(file, "w", encoding="utf-8") as text:
+                json.dump({"type": "FeatureCollection", "features": features}, text)
+            read = pgdr.resolve_crossings(pgdr.Plc.read(file))[0]
+        made = pgdr.Plc.from_shapely(rows, **columns)
+        for name in ("points", "segments", "markers", "holes", "regions"):
+            self.assertEqual(getattr(made, name).tolist(), getattr(read, name).tolist(), name)
+        self.assertEqual((made.region_names, made.marker_names), (read.region_names, read.marker_names))
+        return made
+
+    def test_files_and_geometries_are_one_input(self):
+        rows = [RIVER, LAND, None, WELL, BAY, {"type": "GeometryCollection", "geometries": [BAY, RIVER]}]
+        made = self.assert_one_input(rows)
+        self.assertEqual((set(made.regions[:, 2]), len(made.holes)), ({2, 5}, 2))
+        named = self.assert_one_input(rows, labels=[0, 7, 0, 0, 8, 8], sizes=[0, 0.5, 0, 0, 0.1, 0], names=list("abcdef"),
+                                      markers=[3, 1, 1, 0, 2, 5])
+        self.assertEqual((named.region_names, named.marker_names), ({7.0: "b", 8.0: "e"}, {3: "a", 5: "f"}))
+        rng = np.random.default_rng(5)
+        for trial in range(6):
+            rows = []
+            for at in rng.uniform(0, 4, (12, 2)):
+                a, b = np.sort(rng.uniform(0, 2 * np.pi, (2, 5)))
+                rows.append([polygon((at + np.array([np.cos(a), np.sin(a)]).T).tolist()),
+                             {"type": "LineString", "coordinates": (at + np.array([np.cos(b), np.sin(b)]).T).tolist()},
+                             {"type": "Point", "coordinates": at.tolist()}][rng.integers(0, 3)])
+            with self.subTest(trial=trial):
+                made = self.assert_one_input(rows + [LAND])
+                self.assertGreater(len(made.regions), 3)
 
     def test_lines_alone(self):
         ring = {"type": "LineString", "coordinates": [[0, 0], [2, 0], [2, 2], [0, 2], [0, 0]]}

@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +25,7 @@
 #include "pgdr/io.hpp"
 #include "pgdr/joined_plc.hpp"
 #include "pgdr/openings.hpp"
+#include "pgdr/planar_map.hpp"
 #include "pgdr/planar_plc.hpp"
 #include "run.hpp"
 
@@ -317,6 +321,82 @@ py::tuple label_bodies(const Plc<3>& plc, const std::string& word, bool resolves
   return py::make_tuple(seeded, regions, made.body_names, to_python(made.repairs), to_python(made.warnings));
 }
 
+/// Paths of points that lie one behind the other, a list of them a group.
+class Paths {
+ public:
+  Paths(const Dense<std::int64_t>& groups, const Dense<std::int64_t>& sizes, const Dense<double>& coordinates)
+      : groups_(span_of(groups)), sizes_(span_of(sizes)), points_(points_of<2>(coordinates)) {
+    require_finite<2>(points_, "point");
+    const auto sum = [](std::span<const std::int64_t> all) {
+      if (std::ranges::any_of(all, [](std::int64_t n) { return n < 0; })) bad_argument("there are no negative numbers of points");
+      return static_cast<std::size_t>(std::accumulate(all.begin(), all.end(), std::int64_t{0}));
+    };
+    if (sum(groups_) != sizes_.size() || sum(sizes_) != points_.size()) bad_argument("paths and their points are not as many");
+  }
+  std::size_t groups() const { return groups_.size(); }
+  /// The next group. @pre there is one
+  std::vector<std::vector<Point2>> next() {
+    std::vector<std::vector<Point2>> group(static_cast<std::size_t>(groups_[group_++]));
+    for (auto& path : group) {
+      const auto begin = points_.begin() + static_cast<std::ptrdiff_t>(point_);
+      path.assign(begin, begin + sizes_[path_]);
+      point_ += static_cast<std::size_t>(sizes_[path_++]);
+    }
+    return group;
+  }
+
+ private:
+  std::span<const std::int64_t> groups_, sizes_;
+  std::vector<Point2> points_;
+  std::size_t group_ = 0, path_ = 0, point_ = 0;
+};
+
+/// ((k, 2) points in faces, (k,) the polygon of each or -1).
+py::tuple face_seeds(const Plc<2>& plc, const Dense<std::int64_t>& rings, const Dense<std::int64_t>& corners,
+                     const Dense<double>& coordinates) {
+  Paths paths(rings, corners, coordinates);
+  std::vector<std::array<double, 2>> points;
+  std::vector<std::int64_t> owners;
+  {
+    const py::gil_scoped_release others_run;
+    std::vector<RingPolygon> polygons(paths.groups());
+    for (std::size_t k = 0; k < polygons.size(); ++k) polygons[k] = {paths.next(), static_cast<std::uint32_t>(k)};
+    for (const FaceSeed& seed : seeds_of_faces(plc, polygons)) {
+      points.push_back(seed.point.x);
+      owners.push_back(seed.feature);
+    }
+  }
+  return py::make_tuple(own(std::move(points)), own(std::move(owners)));
+}
+
+/// Of each feature label, size, marker and names; of each part its kind, the feature that it is of, and how many paths it has.
+std::shared_ptr<Plc<2>> map_plc(const Dense<double>& labels, const Dense<double>& sizes, const Dense<int>& markers,
+                                const std::vector<std::string>& label_names, const std::vector<std::string>& marker_names,
+                                const Dense<std::uint8_t>& kinds, const Dense<std::int64_t>& owners,
+                                const Dense<std::int64_t>& parts, const Dense<std::int64_t>& points,
+                                const Dense<double>& coordinates, std::optional<double> tolerance) {
+  Paths paths(parts, points, coordinates);
+  const auto label = span_of(labels), size = span_of(sizes);
+  const auto marker = span_of(markers);
+  const auto kind = span_of(kinds);
+  const auto owner = span_of(owners);
+  std::vector<MapFeature> features(label.size());
+  if (size.size() != features.size() || marker.size() != features.size() || label_names.size() != features.size() ||
+      marker_names.size() != features.size() || kind.size() != paths.groups() || owner.size() != paths.groups())
+    bad_argument("what is said of features or parts is not as much as these");
+  for (std::size_t f = 0; f < features.size(); ++f)
+    features[f] = {label[f], size[f], marker[f], label_names[f], marker_names[f], {}};
+  for (std::size_t k = 0; k < paths.groups(); ++k) {
+    if (owner[k] < 0 || static_cast<std::size_t>(owner[k]) >= features.size() || kind[k] > 2)
+      bad_argument("a part of no feature");
+    MapPart& part = features[static_cast<std::size_t>(owner[k])].parts.emplace_back();
+    part.kind = static_cast<MapPart::Kind>(kind[k]);
+    for (auto& path : paths.next()) part.paths.push_back({std::move(path), {}});
+  }
+  const py::gil_scoped_release others_run;
+  return std::make_shared<Plc<2>>(plc_of_map(features, tolerance));
+}
+
 }  // namespace
 
 CoordinateArray coordinates_of(const py::array& array) {
@@ -348,6 +428,8 @@ void bind_plc(py::module_& module) {
   module.def("resolve_crossings3", &resolve<3>);
   module.def("close_planar_openings", &close_openings);
   module.def("with_bodies", &label_bodies);
+  module.def("seeds_of_faces", &face_seeds);
+  module.def("plc_of_map", &map_plc);
   module.def("with_convex_hull2", &hull<2>);
   module.def("with_convex_hull3", &hull<3>);
 }

@@ -10,41 +10,31 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/formats.hpp"
-#include "io/read/polygon_seeds.hpp"
 #include "pgdr/error.hpp"
+#include "pgdr/planar_map.hpp"
 #include "scan/json_scanner.hpp"
 #include "scan/line_scanner.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-/// What its properties say of a feature.
-struct Properties {
-  std::string name;
-  std::optional<double> label, size;
-  std::optional<int> marker;
-};
-
 class GeoJsonReader {
  public:
-  GeoJsonReader(std::string_view text, const std::filesystem::path& file) : in_(text, file.string()) {
-    plc_.source.file = file.string();
-  }
+  GeoJsonReader(std::string_view text, const std::filesystem::path& file) : in_(text, file.string()), file_(file.string()) {}
 
   Plc<2> read() {
     read_object(true);
     in_.end();
-    if (plc_.segments.empty()) in_.fail(Errc::syntax, "there are no polygons and no lines, which could enclose an area");
-    if (!polygons_.empty()) add_seeds();
-    return std::move(plc_);
+    Plc<2> plc = plc_of_map(features_);
+    plc.source.file = file_;
+    if (plc.segments.empty()) in_.fail(Errc::syntax, "there are no polygons and no lines, which could enclose an area");
+    return plc;
   }
 
  private:
@@ -52,15 +42,13 @@ class GeoJsonReader {
 
   /// An object of any type. @param alone  it begins a feature, unless it is a collection of such
   void read_object(bool alone);
-  void read_properties(Properties& to);
+  void read_properties(MapFeature& to);
   void read_geometry(const std::string& type, std::size_t coordinates);
   void read_polygon();
-  std::vector<std::uint32_t> read_path();
-  std::uint32_t read_point();
-  void add_edges(const std::vector<std::uint32_t>& path, bool closed);
-  void begin_feature(Properties properties);
-  void name_feature();
-  void add_seeds();
+  MapPath read_path();
+  void read_point(MapPath& to);
+  MapPart& begin_part(MapPart::Kind kind);
+  void name_feature(const std::string& name);
 
   /// Calls `read` for the value at a place, and comes back.
   template <class F>
@@ -72,35 +60,24 @@ class GeoJsonReader {
   }
 
   JsonScanner in_;
-  Plc<2> plc_;
-  std::map<std::pair<double, double>, std::uint32_t> number_of_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges_;
-  std::vector<RingPolygon> polygons_;
-  std::vector<Properties> features_;
-  bool has_lines_ = false;  ///< the last feature
+  std::string file_;
+  std::vector<MapFeature> features_;
 };
 
-void GeoJsonReader::begin_feature(Properties properties) {
-  features_.push_back(std::move(properties));
-  has_lines_ = false;
+void GeoJsonReader::name_feature(const std::string& name) {
+  MapFeature& feature = features_.back();
+  feature.label_name = name;
+  const auto is_line = [](const MapPart& part) { return part.kind == MapPart::Kind::line; };
+  if (std::ranges::any_of(feature.parts, is_line)) feature.marker_name = name;
 }
 
-void GeoJsonReader::name_feature() {
-  const Properties& p = features_.back();
-  const auto number = static_cast<std::uint32_t>(features_.size() - 1);
-  if (p.name.empty()) return;
-  if (!polygons_.empty() && polygons_.back().feature == number)
-    plc_.names.regions.emplace(p.label.value_or(number + 1.0), p.name);
-  if (has_lines_) plc_.names.markers.emplace(p.marker.value_or(static_cast<int>(number) + 1), p.name);
-}
-
-void GeoJsonReader::read_properties(Properties& to) {
+void GeoJsonReader::read_properties(MapFeature& to) {
   if (in_.null()) return;
   in_.object([&](const std::string& key) {
     const char c = in_.next();
     const bool is_number = c == '-' || (c >= '0' && c <= '9');
     if (key == "name" && c == '"') {
-      to.name = in_.string();
+      to.label_name = in_.string();
     } else if (key == "label" && is_number) {
       to.label = in_.number();
     } else if (key == "size" && is_number) {
@@ -119,7 +96,9 @@ void GeoJsonReader::read_properties(Properties& to) {
 void GeoJsonReader::read_object(bool alone) {
   if (in_.null()) return;
   std::string type;
-  Properties properties;
+  MapFeature feature;  // numbered from 1, unless its properties say otherwise
+  feature.label = static_cast<double>(features_.size()) + 1;
+  feature.marker = static_cast<int>(features_.size()) + 1;
   std::size_t coordinates = nowhere, parts = nowhere, geometry = nowhere;
   in_.object([&](const std::string& key) {
     if (key == "type") {
@@ -130,7 +109,7 @@ void GeoJsonReader::read_object(bool alone) {
     if (key == "coordinates") coordinates = in_.place();
     if (key == "features" || key == "geometries") parts = in_.place();
     if (key == "geometry") geometry = in_.place();
-    if (key == "properties") return read_properties(properties);
+    if (key == "properties") return read_properties(feature);
     in_.skip();
   });
   const auto require = [&](std::size_t place, const char* what) {
@@ -140,7 +119,8 @@ void GeoJsonReader::read_object(bool alone) {
     require(parts, "features");
     return at(parts, [this] { in_.array([this] { read_object(true); }); });
   }
-  if (alone) begin_feature(std::move(properties));
+  const std::string name = std::exchange(feature.label_name, {});
+  if (alone) features_.push_back(std::move(feature));
   if (type == "Feature") {
     require(geometry, "geometry");
     at(geometry, [this] { read_object(false); });
@@ -151,26 +131,30 @@ void GeoJsonReader::read_object(bool alone) {
     require(coordinates, "coordinates");
     read_geometry(type, coordinates);
   }
-  if (alone) name_feature();
+  if (alone) name_feature(name);
 }
 
 void GeoJsonReader::read_geometry(const std::string& type, std::size_t coordinates) {
-  const auto read_line = [this] {
-    add_edges(read_path(), false);
-    has_lines_ = true;
-  };
+  const auto read_line = [this] { begin_part(MapPart::Kind::line).paths.push_back(read_path()); };
+  const auto read_alone = [this] { read_point(begin_part(MapPart::Kind::point).paths.emplace_back()); };
   at(coordinates, [&] {
     if (type == "Polygon") return read_polygon();
     if (type == "MultiPolygon") return in_.array([this] { read_polygon(); });
     if (type == "LineString") return read_line();
     if (type == "MultiLineString") return in_.array(read_line);
-    if (type == "MultiPoint") return in_.array([this] { read_point(); });
+    if (type == "MultiPoint") return in_.array(read_alone);
     if (type != "Point") in_.fail(Errc::syntax, detail::quoted(type) + " is no type of GeoJSON");
-    read_point();
+    read_alone();
   });
 }
 
-std::uint32_t GeoJsonReader::read_point() {
+MapPart& GeoJsonReader::begin_part(MapPart::Kind kind) {
+  MapPart& part = features_.back().parts.emplace_back();
+  part.kind = kind;
+  return part;
+}
+
+void GeoJsonReader::read_point(MapPath& to) {
   Point2 p;
   int count = 0;
   in_.array([&] {
@@ -179,57 +163,30 @@ std::uint32_t GeoJsonReader::read_point() {
     ++count;
   });
   if (count < 2) in_.fail(Errc::syntax, "a position has fewer than two coordinates");
-  const auto [it, is_new] = number_of_.emplace(std::pair(p[0], p[1]), static_cast<std::uint32_t>(plc_.points.size()));
-  if (is_new) {
-    plc_.points.push_back(p);
-    plc_.source.point_lines.push_back(in_.line());
-  }
-  return it->second;
+  to.points.push_back(p);
+  to.lines.push_back(in_.line());
 }
 
-/// Points one behind the other, no two in succession the same.
-std::vector<std::uint32_t> GeoJsonReader::read_path() {
-  std::vector<std::uint32_t> path;
-  in_.array([&] {
-    const std::uint32_t p = read_point();
-    if (path.empty() || path.back() != p) path.push_back(p);
-  });
+MapPath GeoJsonReader::read_path() {
+  MapPath path;
+  in_.array([&] { read_point(path); });
   return path;
 }
 
-void GeoJsonReader::add_edges(const std::vector<std::uint32_t>& path, bool closed) {
-  const int marker = features_.back().marker.value_or(static_cast<int>(features_.size()));
-  for (std::size_t i = closed ? 0 : 1; i < path.size(); ++i) {
-    const std::uint32_t a = path[i == 0 ? path.size() - 1 : i - 1], b = path[i];
-    if (!edges_.insert(std::minmax(a, b)).second) continue;
-    plc_.segments.push_back({{a, b}, marker});
-    plc_.source.segment_lines.push_back(in_.line());
-  }
+/// How many of successive points differ from the one before.
+std::size_t steps_of(const MapPath& ring) {
+  std::size_t steps = 0;
+  for (std::size_t i = 0; i < ring.points.size(); ++i)
+    if (ring.points[i] != ring.points[i == 0 ? ring.points.size() - 1 : i - 1]) ++steps;
+  return steps;
 }
 
 void GeoJsonReader::read_polygon() {
-  RingPolygon polygon;
-  polygon.feature = static_cast<std::uint32_t>(features_.size() - 1);
+  MapPart& part = begin_part(MapPart::Kind::polygon);
   in_.array([&] {
-    std::vector<std::uint32_t> path = read_path();
-    if (path.size() > 1 && path.front() == path.back()) path.pop_back();
-    if (path.size() < 3) in_.fail(Errc::degenerate_facet, "a ring has fewer than three different corners");
-    add_edges(path, true);
-    auto& ring = polygon.rings.emplace_back();
-    for (const std::uint32_t p : path) ring.push_back(plc_.points[p]);
+    part.paths.push_back(read_path());
+    if (steps_of(part.paths.back()) < 3) in_.fail(Errc::degenerate_facet, "a ring has fewer than three different corners");
   });
-  if (!polygon.rings.empty()) polygons_.push_back(std::move(polygon));
-}
-
-void GeoJsonReader::add_seeds() {
-  for (const FaceSeed& seed : seeds_of_faces(plc_, polygons_)) {
-    if (seed.feature < 0) {
-      plc_.holes.push_back(seed.point);
-      continue;
-    }
-    const Properties& of = features_[static_cast<std::size_t>(seed.feature)];
-    plc_.regions.push_back({seed.point, of.label.value_or(static_cast<double>(seed.feature) + 1), of.size.value_or(0)});
-  }
 }
 
 }  // namespace

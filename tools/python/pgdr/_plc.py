@@ -218,7 +218,7 @@ class Plc:
         Edges that neighbours have in common are there once, those of the same ends by being equal, others within the tolerance; what
         crosses is split there. What polygons enclose and none has is a hole. Heights are left out. Coordinates may be large, as those
         of a projection are: signs are exact, and nothing has to be moved to the origin. Without polygons, what lines enclose is
-        meshed. Raises UsageError, TypeError, and InputError where the edges enclose nothing.
+        meshed. A file of GeoJSON is read as the same (`Plc.read`, then `resolve_crossings`). Raises UsageError, TypeError.
 
         >>> import pgdr
         >>> field = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 2], [0, 2]]]}

@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Set, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _arguments
+from . import _arguments, _pgdr
 from ._doors import door
-from ._errors import InputError, usage
-from ._plc import Plc, resolve_crossings
-from ._run import mesh
+from ._ending import WORK
+from ._errors import usage
+from ._plc import Plc, _tolerance, resolve_crossings
 
 _Points = npt.NDArray[Any]
 
@@ -29,11 +29,6 @@ def _crossings(ring: _Points, y: float) -> npt.NDArray[np.float64]:
 
 class _Polygon(NamedTuple):
     rings: List[_Points]  #: the outer one, then those of the holes; none has its first corner again at its end
-
-    def has(self, x: float, y: float) -> bool:
-        """Is a point in it that is on none of its edges?"""
-        crossed = sum(int((_crossings(ring, y) > x).sum()) for ring in self.rings)
-        return crossed % 2 == 1
 
 
 def _ring(name: str, value: object) -> _Points:
@@ -145,60 +140,54 @@ def _polygons_of(outer: object, holes: Sequence[object]) -> List[_Polygon]:
             for k, rings in enumerate(given)]
 
 
-class _Parts(NamedTuple):
-    """What polygons divide the plane into, without what is outside of all."""
-
-    seeds: npt.NDArray[np.float64]  #: (k, 2) a point in each part, far from its edges
-    owners: npt.NDArray[Any]  #: the first polygon that has it; -1: none has, so it is a void
+def _flat(rings: Sequence[_Points]) -> npt.NDArray[np.float64]:
+    """The coordinates of rings, one behind the other."""
+    return np.ascontiguousarray(np.concatenate([np.empty((0, 2)), *rings]), dtype=np.float64)
 
 
-def _parts_of(plc: Plc, polygons: Sequence[_Polygon]) -> _Parts:
-    """By a triangulation of all edges. Raises InputError where there is none."""
-    made = mesh(resolve_crossings(plc)[0], refine=False, regions="all")
-    corners = made.points[made.cells]
-    edges = corners - np.roll(corners, 1, axis=1)
-    areas = np.abs(edges[:, 0, 0] * edges[:, 1, 1] - edges[:, 0, 1] * edges[:, 1, 0])
-    widths = areas / np.linalg.norm(edges, axis=2).sum(axis=1)
-    order = np.lexsort((-widths, made.regions))
-    widest = order[np.unique(made.regions[order], return_index=True)[1]]
-    seeds = corners[widest].mean(axis=1)
-    seeds = seeds[np.argsort(seeds[:, 0])]
-    owners = np.full(len(seeds), -1)
-    for k, polygon in enumerate(polygons):
-        low, high = polygon.rings[0].min(axis=0), polygon.rings[0].max(axis=0)
-        begin, end = np.searchsorted(seeds[:, 0], [low[0], high[0]])
-        near = begin + np.flatnonzero((low[1] <= seeds[begin:end, 1]) & (seeds[begin:end, 1] <= high[1]) & (owners[begin:end] < 0))
-        owners[near] = [k if polygon.has(*seeds[i]) else -1 for i in near]
-    return _Parts(seeds, owners)
+def _counts(lists: Sequence[Any]) -> npt.NDArray[np.int64]:
+    return np.array([len(one) for one in lists], dtype=np.int64)
 
 
 def _seeds(plc: Plc, polygons: Sequence[_Polygon], labels: Optional[_Points]) -> Tuple[_Points, List[Any]]:
     """Holes, and rows of regions, one in each part that needs it."""
-    if len(polygons) > 1 or labels is not None:
-        try:
-            parts = _parts_of(plc, polygons)
-        except InputError:  # what is wrong is said when it is meshed
-            pass
-        else:
-            holes = [seed for seed, owner in zip(parts.seeds, parts.owners) if owner < 0]
-            rows = [] if labels is None else [[*seed, labels[owner]] for seed, owner in zip(parts.seeds, parts.owners) if owner >= 0]
-            return np.array(holes).reshape(-1, 2), rows
-    holes = [_inside(f"hole {i}", ring) for polygon in polygons for i, ring in enumerate(polygon.rings[1:])]
-    return np.array(holes).reshape(-1, 2), []
+    if len(polygons) == 1 and labels is None:
+        return np.array([_inside(f"hole {i}", ring) for i, ring in enumerate(polygons[0].rings[1:])]).reshape(-1, 2), []
+    rings = [ring for polygon in polygons for ring in polygon.rings]
+    with WORK:
+        seeds, owners = _pgdr.seeds_of_faces(plc._core, _counts([polygon.rings for polygon in polygons]), _counts(rings), _flat(rings))
+    rows = [] if labels is None else [[*seed, labels[owner]] for seed, owner in zip(seeds, owners) if owner >= 0]
+    return seeds[owners < 0], rows
 
 
-class _Rows(NamedTuple):
-    """What geometries consist of, each with the row that it is of."""
+class _Map(NamedTuple):
+    """What geometries consist of: parts, each with its kind, the row that it is of, and its paths."""
 
-    polygons: List[_Polygon]
-    polygon_rows: List[int]
-    lines: List[_Points]
-    line_rows: List[int]
-    points: List[_Points]
+    kinds: List[int]  #: as MapPart::Kind of C++
+    rows: List[int]
+    paths: List[List[_Points]]
+
+    def rows_of(self, *kinds: str) -> Set[int]:
+        return {row for kind, row in zip(self.kinds, self.rows) if _KINDS[kind] in kinds}
 
 
-def _sorted_out(geometries: Sequence[object]) -> _Rows:
-    made = _Rows([], [], [], [], [])
+_KINDS = ("Polygon", "LineString", "Point")
+
+
+def _paths_of(kind: str, at: Any, row: int) -> List[_Points]:
+    """Of a polygon its rings, of a line its points, of a point itself."""
+    try:
+        if kind == "Polygon":
+            return [_ring(f"ring {i} of a polygon of row {row}", [corner[:2] for corner in ring]) for i, ring in enumerate(at)]
+        if kind == "Point":
+            return [_arguments.points(f"a point of row {row}", [at[:2]], 2)]
+        return [_arguments.points(f"a line of row {row}", [corner[:2] for corner in at], 2)]
+    except (TypeError, IndexError):
+        raise usage(f"row {row}: the coordinates of a {kind} must be as GeoJSON has them") from None
+
+
+def _map_of(geometries: Sequence[object]) -> _Map:
+    made = _Map([], [], [])
     for row, value in enumerate(geometries):
         if value is None:  # GeoPandas has rows without a geometry
             continue
@@ -206,19 +195,10 @@ def _sorted_out(geometries: Sequence[object]) -> _Rows:
         if geometry is None:
             raise TypeError(f"row {row} must be a geometry of Shapely, or what has a __geo_interface__, not {type(value).__name__}")
         for kind, at in _simple_parts(geometry):
-            try:
-                if kind == "Polygon":
-                    rings = [_ring(f"ring {i} of a polygon of row {row}", [corner[:2] for corner in ring]) for i, ring in enumerate(at)]
-                    made.polygons.append(_Polygon(rings))
-                    made.polygon_rows.append(row)
-                elif kind == "Point":
-                    made.points.append(_arguments.points(f"a point of row {row}", [at[:2]], 2))
-                else:
-                    made.lines.append(_arguments.points(f"a line of row {row}", [corner[:2] for corner in at], 2))
-                    made.line_rows.append(row)
-            except (TypeError, IndexError):
-                raise usage(f"row {row}: the coordinates of a {kind} must be as GeoJSON has them") from None
-    if not made.polygons and not made.lines:
+            made.paths.append(_paths_of(kind, at, row))
+            made.kinds.append(_KINDS.index(kind) if kind in _KINDS else _KINDS.index("LineString"))
+            made.rows.append(row)
+    if not made.rows_of("Polygon", "LineString"):
         raise usage("there are no polygons and no lines: nothing encloses an area")
     return made
 
@@ -244,28 +224,6 @@ def _simple_parts(geometry: Mapping[str, Any]) -> Iterator[Tuple[str, Any]]:
         raise usage(f"a {kind} must be as GeoJSON has it: {type(error).__name__}: {error}") from None
 
 
-def _graph(rows: _Rows, markers: _Points) -> Tuple[_Points, _Points, _Points]:
-    """Points, segments and their markers: of equal points one, and of equal segments the one of the first row."""
-    paths = [np.concatenate([ring, ring[:1]]) for polygon in rows.polygons for ring in polygon.rings]
-    owners = [row for polygon, row in zip(rows.polygons, rows.polygon_rows) for _ in polygon.rings]
-    paths, owners = paths + rows.lines, owners + rows.line_rows
-    at = np.concatenate([*paths, *rows.points])
-    begin = np.cumsum([0] + [len(path) for path in paths])
-    ends = np.stack([np.arange(begin[-1] - 1), np.arange(1, begin[-1])], axis=1)
-    kept = np.ones(len(ends), dtype=bool)
-    kept[begin[1:-1] - 1] = False
-    points, first, place = np.unique(at, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # as they come
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    segments, owner = rank[place.reshape(-1)][ends[kept]], np.repeat(owners, np.diff(begin))[:-1][kept]
-    owner, segments = owner[segments[:, 0] != segments[:, 1]], segments[segments[:, 0] != segments[:, 1]]
-    by_row = np.argsort(owner, kind="stable")
-    keys = np.sort(segments[by_row], axis=1)
-    chosen = np.sort(by_row[np.unique(keys, axis=0, return_index=True)[1]])
-    return points[order], segments[chosen], markers[owner[chosen]]
-
-
 def _numbered(name: str, values: Optional[Sequence[Any]], count: int) -> Tuple[_Points, Dict[int, str]]:
     """Labels or markers of rows; of words, numbers in the order in which they come, and what these are called."""
     if values is None:
@@ -280,10 +238,11 @@ def _numbered(name: str, values: Optional[Sequence[Any]], count: int) -> Tuple[_
     return np.asarray(_arguments.values(name, np.array(given), count, "rows")), {}
 
 
-def _whole(markers: _Points) -> _Points:
-    if not np.array_equal(markers, np.asarray(markers, dtype=np.int64)):
+def _whole(markers: _Points, count: int) -> _Points:
+    whole = np.asarray(markers, dtype=np.int64)
+    if not np.array_equal(markers, whole):
         raise usage("markers must be whole numbers")
-    return np.asarray(markers, dtype=np.int64)
+    return _arguments.markers("markers", whole, count, "rows")
 
 
 @door
@@ -292,29 +251,26 @@ def from_shapely(geometries: object, *, labels: Optional[Sequence[Any]] = None, 
                  tolerance: Optional[float] = None) -> Plc:
     """See Plc.from_shapely."""
     given = list(geometries) if isinstance(geometries, (list, tuple, np.ndarray)) else [geometries]
-    rows = _sorted_out(given)
-    of_rows, label_names = _numbered("labels", labels, len(given))
-    numbers, marker_names = _numbered("markers", markers, len(given))
+    parts = _map_of(given)
+    of_rows, words = _numbered("labels", labels, len(given))
+    numbers, marker_words = _numbered("markers", markers, len(given))
     largest = np.zeros(len(given))
     if sizes is not None:
         largest = np.array(_arguments.reals("sizes", np.nan_to_num(np.asarray(sizes, dtype=np.float64))))
         if largest.shape != (len(given),) or (largest < 0).any():
             raise usage(f"sizes must be {len(given)} areas, one a row; 0 or NaN: any size")
-    if names is not None:
-        if len(names) != len(given):
-            raise usage(f"names must have one entry for each of {len(given)} rows, not {len(names)}")
-        label_names = {of_rows[row]: str(names[row]) for row in reversed(rows.polygon_rows)}
-        marker_names = {int(numbers[row]): str(names[row]) for row in reversed(rows.line_rows)}
-    points, segments, owned = _graph(rows, _whole(numbers))
-    plc = resolve_crossings(Plc(points, segments, markers=owned, tolerance=tolerance))[0]
-    if rows.polygons:
-        parts = _parts_of(plc, rows.polygons)
-        of_part = np.array([*rows.polygon_rows, -1])[parts.owners]  # -1: none
-        plc = plc.with_seeds(holes=parts.seeds[of_part < 0] if (of_part < 0).any() else None,
-                             regions=[[*seed, of_rows[row], largest[row]] for seed, row in zip(parts.seeds, of_part) if row >= 0])
-    used = set(plc.regions[:, 2].tolist()), set(plc.markers.tolist())
-    return plc.with_names(regions={float(label): name for label, name in label_names.items() if label in used[0]},
-                          markers={marker: name for marker, name in marker_names.items() if marker in used[1]})
+    if names is not None and len(names) != len(given):
+        raise usage(f"names must have one entry for each of {len(given)} rows, not {len(names)}")
+    label_names = [words.get(label, "") for label in of_rows] if names is None else list(map(str, names))
+    lines = parts.rows_of("LineString")
+    marker_names = ([marker_words.get(marker, "") for marker in numbers] if names is None
+                    else [str(name) if row in lines else "" for row, name in enumerate(names)])
+    paths = [path for part in parts.paths for path in part]
+    with WORK:
+        core = _pgdr.plc_of_map(np.asarray(of_rows, dtype=np.float64), largest, _whole(numbers, len(given)), label_names, marker_names,
+                                np.array(parts.kinds, dtype=np.uint8), np.array(parts.rows, dtype=np.int64), _counts(parts.paths),
+                                _counts(paths), _flat(paths), _tolerance(tolerance))
+    return resolve_crossings(Plc._of(core))[0]
 
 
 @door

@@ -1,18 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The pgdr authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/read/polygon_seeds.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "input/edges.hpp"
 #include "join/crossing_resolver.hpp"
+#include "pgdr/planar_map.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
 
-namespace pgdr::detail {
+namespace pgdr {
 namespace {
+
+using detail::Box;
+using detail::BoxTree;
+using detail::CrossingResolver;
+using detail::edge_key;
+using detail::edge_of;
+using detail::OwnedEdge;
+using detail::PlanarEdge;
 
 /// Half-edge 2 s runs along edge s, 2 s + 1 against it.
 class PlanarGraph {
@@ -134,6 +141,17 @@ double level_of_face(const PlanarGraph& graph, std::span<const Point2> points, s
   return below / 2 + above / 2;
 }
 
+/// The boxes about polygons.
+std::vector<Box<2>> boxes_of(std::span<const RingPolygon> polygons) {
+  std::vector<Box<2>> boxes;
+  for (const RingPolygon& polygon : polygons) {
+    Box<2>& box = boxes.emplace_back(Box<2>::empty());
+    for (const auto& ring : polygon.rings)
+      for (const Point2& p : ring) box.add(p);
+  }
+  return boxes;
+}
+
 bool is_inside(const RingPolygon& polygon, const Point2& x) {
   bool inside = false;
   for (const auto& ring : polygon.rings)
@@ -210,16 +228,20 @@ std::vector<FaceSeed> seeds_of_faces(const Plc<2>& plc, std::span<const RingPoly
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   const PlanarGraph graph(points, edges);
   std::vector<FaceLine> lines = lines_through(graph, points, edges);
+  const std::vector<Box<2>> boxes = boxes_of(polygons);
+  const BoxTree<2> tree(boxes);
   std::vector<FaceSeed> seeds;
   for (FaceLine& line : lines) {
     FaceSeed seed;
     if (!choose_seed(graph, points, line, seed.point)) continue;
-    const auto owner = std::find_if(polygons.begin(), polygons.end(),
-                                    [&](const RingPolygon& p) { return is_inside(p, seed.point); });
-    if (owner != polygons.end()) seed.feature = owner->feature;
+    std::size_t owner = polygons.size();
+    tree.at(seed.point, [&](std::uint32_t k) {
+      if (k < owner && is_inside(polygons[k], seed.point)) owner = k;
+    });
+    if (owner != polygons.size()) seed.feature = polygons[owner].feature;
     seeds.push_back(seed);
   }
   return seeds;
 }
 
-}  // namespace pgdr::detail
+}  // namespace pgdr
