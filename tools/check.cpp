@@ -177,6 +177,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
   const OutputMesh<D> mesh = file.read_mesh<D>();
+  report.set("warnings", to_json(file.warnings()));
   if (!a.quiet) print_warnings(file.warnings());
   InputArguments reading = a.reading;
   reading.convex_hull = reading.convex_hull || reported.convex_hull;

@@ -316,6 +316,8 @@ void print_quality(const QualitySummary& q) {
 template <int D>
 int info_of_mesh(const InfoArguments& a, InputFile& file, Report& report) {
   const OutputMesh<D> mesh = file.read_mesh<D>();
+  report.set("warnings", to_json(file.warnings()));
+  if (!a.quiet) print_warnings(file.warnings());
   const QualitySummary q = summarize_quality(mesh);
   report.set("kind", "mesh");
   report.set("vertices", mesh.points.size());

@@ -134,8 +134,9 @@ struct TetgenTexts {
 inline constexpr std::string_view input_points_comment = "# pgdr input_points ", subsegments_comment = "# pgdr subsegments ";
 /// The name of the file of that family with an extension: `file` itself if it is the one.
 std::string tetgen_name(const std::filesystem::path& file, std::string_view extension);
+/// @param left_out  null, or where to put how many nodes of cells of second order, which are no corners, the files have
 template <int D>
-OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path& file);
+OutputMesh<D> read_tetgen(const TetgenTexts& texts, const std::filesystem::path& file, std::size_t* left_out = nullptr);
 /// Writes .node, .face (3D), .edge, .neigh (on request) and .ele, all or none.
 template <int D>
 void write_tetgen(const OutputMesh<D>& mesh, const std::filesystem::path& file, const WriteOptions& options);

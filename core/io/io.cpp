@@ -74,6 +74,15 @@ bool is_for_others(const Path& file) {
 
 bool is_vtk(const std::string& extension) { return extension == ".vtu" || extension == ".pvtu"; }
 
+/// Says that cells of second order are read by their corners.
+void note_mid_sides(std::size_t left_out, const Path& file, detail::FileTexts& texts) {
+  if (left_out == 0) return;
+  texts.warnings().push_back({.code = Errc::unknown_format,
+                              .message = "cells of second order are read by their corners: " + std::to_string(left_out) +
+                                         " nodes in the middles of edges are left out",
+                              .file = file.string()});
+}
+
 /// The texts of the mesh that a .node or .ele file belongs to.
 template <int D>
 OutputMesh<D> read_tetgen_files(const Path& file, detail::FileTexts& texts) {
@@ -84,16 +93,10 @@ OutputMesh<D> read_tetgen_files(const Path& file, detail::FileTexts& texts) {
     return there ? std::optional<std::string_view>(text(extension)) : std::nullopt;
   };
   const std::string_view node = text(".node"), ele = text(".ele");
-  return detail::read_tetgen<D>({node, ele, optional_text(".face"), optional_text(".edge")}, file);
-}
-
-/// Says that cells of second order are read by their corners.
-void note_mid_sides(std::size_t left_out, const Path& file, detail::FileTexts& texts) {
-  if (left_out == 0) return;
-  texts.warnings().push_back({.code = Errc::unknown_format,
-                              .message = "cells of second order are read by their corners: " + std::to_string(left_out) +
-                                         " nodes in the middles of edges are left out",
-                              .file = file.string()});
+  std::size_t left_out = 0;
+  OutputMesh<D> mesh = detail::read_tetgen<D>({node, ele, optional_text(".face"), optional_text(".edge")}, file, &left_out);
+  note_mid_sides(left_out, file, texts);
+  return mesh;
 }
 
 template <int D>

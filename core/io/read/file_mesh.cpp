@@ -309,32 +309,40 @@ bool has_cells(const FileMesh& mesh) {
   return dimension_of(mesh) == 2 && !(mesh.triangles.empty() && mesh.quadrilaterals.empty());
 }
 
-std::size_t drop_mid_sides(FileMesh& mesh) {
-  if (mesh.mid_sides.empty()) return 0;
-  std::vector<std::uint8_t> dropped = std::move(mesh.mid_sides);
-  mesh.mid_sides.clear();
-  const auto each_corner = [&mesh](const auto& f) {
-    const auto each = [&f](auto& elements) {
-      for (auto& e : elements)
-        for (std::uint32_t& v : e.corners) f(v);
-    };
-    each(mesh.edges), each(mesh.triangles), each(mesh.quadrilaterals), each(mesh.tetrahedra);
-    for (std::uint32_t& v : mesh.other_corners) f(v);
+namespace {
+
+/// Calls f(corner) for all corners of elements.
+template <class Mesh, class F>
+void each_element_corner(Mesh& mesh, const F& f) {
+  const auto each = [&f](auto& elements) {
+    for (auto& e : elements)
+      for (auto& v : e.corners) f(v);
   };
-  each_corner([&dropped](std::uint32_t v) { dropped[v] = 0; });
+  each(mesh.edges), each(mesh.triangles), each(mesh.quadrilaterals), each(mesh.tetrahedra);
+  for (auto& v : mesh.other_corners) f(v);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> dropped_mid_sides(const FileMesh& mesh) {
+  std::vector<std::uint8_t> dropped = mesh.mid_sides;
+  if (dropped.empty()) return dropped;
+  each_element_corner(mesh, [&dropped](std::uint32_t v) { dropped[v] = 0; });
   for (std::size_t i = 0; i < mesh.required.size(); ++i)
     if (mesh.required[i]) dropped[i] = 0;
+  return dropped;
+}
+
+std::size_t drop_mid_sides(FileMesh& mesh) {
+  const std::vector<std::uint8_t> dropped = dropped_mid_sides(mesh);
+  if (dropped.empty()) return 0;
+  mesh.mid_sides.clear();
   std::vector<std::uint32_t> number(dropped.size());
   std::uint32_t n = 0;
   for (std::size_t i = 0; i < dropped.size(); ++i) number[i] = dropped[i] ? n : n++;
-  const auto keep = [&](auto& items) {
-    if (items.empty()) return;
-    for (std::size_t i = 0; i < dropped.size(); ++i)
-      if (!dropped[i]) items[number[i]] = items[i];
-    items.resize(n);
-  };
-  keep(mesh.points), keep(mesh.point_markers), keep(mesh.required), keep(mesh.point_lines);
-  each_corner([&number](std::uint32_t& v) { v = number[v]; });
+  keep_rows(mesh.points, 1, dropped), keep_rows(mesh.point_markers, 1, dropped);
+  keep_rows(mesh.required, 1, dropped), keep_rows(mesh.point_lines, 1, dropped);
+  each_element_corner(mesh, [&number](std::uint32_t& v) { v = number[v]; });
   mesh.input_points = std::min<std::size_t>(mesh.input_points, n);
   return dropped.size() - n;
 }

@@ -60,8 +60,20 @@ int dimension_of(const FileMesh& mesh);
 /// Whether there are cells: of volume in 3D, triangles and quadrilaterals in 2D.
 bool has_cells(const FileMesh& mesh);
 
-/// Takes out the points that elements have in the middles of edges, and nothing has as a corner. @returns how many these are
+/// Which points elements have in the middles of edges, and nothing has as a corner; empty: none.
+std::vector<std::uint8_t> dropped_mid_sides(const FileMesh& mesh);
+/// Takes these out. @returns how many they are
 std::size_t drop_mid_sides(FileMesh& mesh);
+
+/// Leaves the rows, of so many items each, that are not dropped.
+template <class Item>
+void keep_rows(std::vector<Item>& items, std::size_t width, const std::vector<std::uint8_t>& dropped) {
+  if (items.empty() || dropped.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < dropped.size(); ++i)
+    for (std::size_t k = 0; k < width && !dropped[i]; ++k) items[kept++] = items[i * width + k];
+  items.resize(kept);
+}
 
 /// The surface and the edges. In 2D a quadrilateral is two triangles. Cells add what of their boundary, and of the faces between
 /// different labels, the surface lacks; a region seed for each label, in each part that facets enclose; a hole in each void; and

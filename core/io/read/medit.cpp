@@ -5,6 +5,7 @@
 // comments (io/write/medit.cpp) is heeded. Sections that nothing has a place for are stepped over.
 // Pascal Frey, MEDIT: an interactive mesh visualization software, INRIA RT-0253, 2001.
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include "io/formats.hpp"
@@ -62,14 +63,14 @@ class MeditReader {
       read_dimension();
     } else if (keyword == "Vertices") {
       read_points();
-    } else if (keyword == "Edges") {
-      read_elements(mesh_.edges, &mesh_.edge_lines, "edge", 1);
-    } else if (keyword == "Triangles") {
-      read_elements(mesh_.triangles, &mesh_.triangle_lines, "triangle", 2);
+    } else if (keyword == "Edges" || keyword == "EdgesP2") {
+      read_elements(keyword, mesh_.edges, &mesh_.edge_lines, "edge", 1);
+    } else if (keyword == "Triangles" || keyword == "TrianglesP2") {
+      read_elements(keyword, mesh_.triangles, &mesh_.triangle_lines, "triangle", 2);
     } else if (keyword == "Quadrilaterals") {
-      read_elements(mesh_.quadrilaterals, &mesh_.quadrilateral_lines, "quadrilateral", 2);
-    } else if (keyword == "Tetrahedra") {
-      read_elements(mesh_.tetrahedra, nullptr, "tetrahedron", 3);
+      read_elements(keyword, mesh_.quadrilaterals, &mesh_.quadrilateral_lines, "quadrilateral", 2);
+    } else if (keyword == "Tetrahedra" || keyword == "TetrahedraP2") {
+      read_elements(keyword, mesh_.tetrahedra, nullptr, "tetrahedron", 3);
     } else if (keyword == "RequiredVertices") {
       read_required_points();
     } else {
@@ -131,14 +132,18 @@ class MeditReader {
     }
   }
 
+  /// Elements of second order, of libMeshb's sections ...P2, have a node in the middle of each edge behind their corners.
   template <std::size_t N>
-  void read_elements(std::vector<FileMesh::Element<N>>& list, std::vector<std::uint32_t>* lines, std::string_view what,
-                     int dimension) {
-    if (!list.empty()) in_.fail(Errc::syntax, "a section comes twice");
-    list.resize(count({"a list of elements"}, 2 * (N + 1)));
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      const Subject s{what, static_cast<std::int64_t>(i + 1)};
+  void read_elements(std::string_view keyword, std::vector<FileMesh::Element<N>>& list, std::vector<std::uint32_t>* lines,
+                     std::string_view what, int dimension) {
+    if (!sections_.insert(keyword).second) in_.fail(Errc::syntax, "a section comes twice");
+    const std::size_t middles = keyword.ends_with("P2") ? N * (N - 1) / 2 : 0, before = list.size();
+    list.resize(before + count({"a list of elements"}, 2 * (N + middles + 1)));
+    if (middles > 0) mesh_.mid_sides.resize(mesh_.points.size());
+    for (std::size_t i = before; i < list.size(); ++i) {
+      const Subject s{what, static_cast<std::int64_t>(i - before + 1)};
       for (auto& c : list[i].corners) c = corner(s);
+      for (std::size_t k = 0; k < middles; ++k) mesh_.mid_sides[corner(s)] = 1;
       if (lines != nullptr && want_.purpose == Purpose::input) lines->push_back(static_cast<std::uint32_t>(in_.line()));
       const int reference = label(s);
       list[i].label = dimension == mesh_.dimension && !region_values_.empty() ? region_value(s, reference) : reference;
@@ -188,6 +193,7 @@ class MeditReader {
   Want want_;
   std::vector<double> region_values_;
   FileMesh mesh_;
+  std::set<std::string_view> sections_;  ///< of elements that have been read
   bool dimension_known_ = false;
   bool spatial_ = false;  ///< the dimension was asked for, and is decided
 };

@@ -100,6 +100,7 @@ class VtkReader {
 
  private:
   enum : int { line = 3, polyline = 4, triangle = 5, strip = 6, polygon = 7, pixel = 8, quad = 9, tetrahedron = 10 };
+  enum : int { quadratic_line = 21, quadratic_triangle = 22, quadratic_tetrahedron = 24 };
   enum class About { mesh, points, cells };
   static constexpr std::size_t most_components = 1024;
 
@@ -412,6 +413,9 @@ class VtkReader {
         wants(v.size() >= 3);
         for (std::size_t i = 0; i + 2 < v.size(); ++i) add_triangle(v[i + i % 2], v[i + 1 - i % 2], v[i + 2], row);
         return;
+      case quadratic_line:
+      case quadratic_triangle:
+      case quadratic_tetrahedron: return add_by_corners(cell, row);
       case triangle:
       case pixel:
       case quad:
@@ -423,6 +427,17 @@ class VtkReader {
         return;
       default: add_other(cell);
     }
+  }
+
+  /// Of second order: a node in the middle of each edge behind the corners.
+  void add_by_corners(Cell cell, std::size_t row) {
+    const std::size_t corners = cell.type == quadratic_line ? 2 : cell.type == quadratic_triangle ? 3 : 4;
+    if (cell.corners.size() != corners * (corners + 1) / 2) in_.fail(Errc::syntax, "a cell has not the nodes that its type has");
+    file_.mesh.mid_sides.resize(file_.mesh.points.size());
+    for (std::size_t k = corners; k < cell.corners.size(); ++k) file_.mesh.mid_sides[cell.corners[k]] = 1;
+    cell.corners.resize(corners);
+    cell.type = corners == 2 ? line : corners == 3 ? triangle : tetrahedron;
+    add_cell(cell, row);
   }
 
   void add_polygon(const Cell& cell, std::size_t row) {
@@ -465,8 +480,12 @@ std::vector<MeshField> read_vtk_fields(std::string_view text, const std::filesys
   VtkFile read = VtkReader(text, file.string()).read();
   const bool is_flat = dimension_of(read.mesh) == 2;
   const std::vector<std::size_t>& rows = is_flat ? read.triangle_rows : read.tetrahedron_rows;
+  const std::vector<std::uint8_t> dropped = dropped_mid_sides(read.mesh);
   for (MeshField& field : read.fields) {
-    if (field.of_points) continue;
+    if (field.of_points) {
+      keep_rows(field.values, field.components, dropped);
+      continue;
+    }
     std::vector<double> of_cells;
     for (const std::size_t row : rows)
       for (std::size_t k = 0; k < field.components; ++k) of_cells.push_back(field.values[row * field.components + k]);
