@@ -112,26 +112,24 @@ class IslandFinder {
       out.of_point[v] = number[root];
     }
     if (out.count < 2) return {};
-    for (const Point3& hole : domain_.holes()) out.of_hole.push_back(around(hole, out));
-    for (const RegionSeed<3>& seed : domain_.regions()) out.of_region.push_back(around(seed.point, out));
+    for (auto& at : at_volume_) {  // not points any more, but islands
+      for (std::uint32_t& p : at) p = out.of_point[p];
+      make_set(at);
+    }
+    for (const Point3& hole : domain_.holes()) out.of_hole.push_back(around(hole, out.count));
+    for (const RegionSeed<3>& seed : domain_.regions()) out.of_region.push_back(around(seed.point, out.count));
     return out;
   }
 
   /// Islands with walls at the volume that the point is in; all, if nobody knows which that is.
-  std::vector<std::uint32_t> around(Point3 x, const Islands& islands) const {
+  std::vector<std::uint32_t> around(Point3 x, std::uint32_t count) const {
     stop_check_();
     for (double& c : x.x) c /= pieces_.unit();
-    std::vector<std::uint32_t> found;
     const auto v = space_->walls().find(x);
-    if (v && *v == 0) return found;
-    if (v)
-      for (const std::uint32_t p : at_volume_[*v]) found.push_back(islands.of_point[p]);
-    if (found.empty()) {
-      found.resize(islands.count);
-      std::iota(found.begin(), found.end(), 0u);
-    }
-    make_set(found);
-    return found;
+    if (v) return at_volume_[*v];
+    std::vector<std::uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
   }
 
   const Domain<3>& domain_;
@@ -140,7 +138,7 @@ class IslandFinder {
   const Bulk& bulk_;
   const StopCheck& stop_check_;
   std::optional<MeshedSpace<3>> space_;
-  std::vector<std::vector<std::uint32_t>> at_volume_;  // of each volume but the outside points of its walls
+  std::vector<std::vector<std::uint32_t>> at_volume_;  // of each volume but the outside: points of its walls, in the end islands
   std::vector<char> is_kept_;                          // of points: on a wall of what may be meshed
 };
 
