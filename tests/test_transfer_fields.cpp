@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -222,6 +223,40 @@ TYPED_TEST(Transfer, AnyNumberOfThreads) {
     });
     if (first.empty()) first = bits;
     EXPECT_EQ(bits, first) << threads;
+  }
+}
+
+/// Cells that have nothing in common but places: each with points of its own.
+template <int D>
+OutputMesh<D> apart(const OutputMesh<D>& mesh) {
+  OutputMesh<D> out;
+  out.regions = mesh.regions;
+  for (const auto& cell : mesh.cells) {
+    auto& own = out.cells.emplace_back();
+    for (std::size_t i = 0; i <= D; ++i) {
+      own[i] = static_cast<std::uint32_t>(out.points.size());
+      out.points.push_back(mesh.points[cell[i]]);
+    }
+  }
+  return out;
+}
+
+/// What walks from cell to cell find is what is found by boxes, where no cell lies beside another one: coarser, finer, and the
+/// same.
+TYPED_TEST(Transfer, WalksFindWhatBoxesDo) {
+  constexpr int D = TypeParam::value;
+  const OutputMesh<D> from = meshed<D>(D == 2 ? 0.002 : 0.12), soup = apart(from);
+  std::mt19937 random(7);
+  std::vector<double> values;
+  for (std::size_t c = 0; c < from.cells.size(); ++c) values.push_back(std::uniform_real_distribution<double>(1, 2)(random));
+  for (const double size : D == 2 ? std::array{0.05, 0.002, 0.0003} : std::array{0.6, 0.12, 0.09}) {
+    OutputMesh<D> to = meshed<D>(size);
+    for (const bool labelled : {true, false}) {
+      if (!labelled) std::ranges::fill(to.regions, 7);
+      const std::vector<double> walked = CellTransfer<D>(from, to).means(values), boxes = CellTransfer<D>(soup, to).means(values);
+      ASSERT_EQ(walked.size(), to.cells.size());
+      for (std::size_t c = 0; c < walked.size(); ++c) ASSERT_NEAR(walked[c], boxes[c], 1e-11) << size << ' ' << c;
+    }
   }
 }
 

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 namespace pgdr::detail {
 namespace {
 
+/// Where the edge between a point inside of a plane and one outside crosses it.
 template <std::size_t D>
 std::array<double, D> between(const std::array<double, D>& in, double at_in, const std::array<double, D>& out, double at_out) {
+  const double share = at_in / (at_in - at_out);
   std::array<double, D> x;
-  for (std::size_t i = 0; i < D; ++i) x[i] = (in[i] * -at_out + out[i] * at_in) / (at_in - at_out);
+  for (std::size_t i = 0; i < D; ++i) x[i] = in[i] + share * (out[i] - in[i]);
   return x;
 }
 
@@ -19,61 +23,81 @@ double determinant(const std::array<double, 3>& a, const std::array<double, 3>& 
   return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/// A convex polygon, counter-clockwise or clockwise.
+/// A convex polygon, counter-clockwise or clockwise. Sides have numbers: those of the triangle that it was, then those of cuts.
 class Polygon {
  public:
   using Vector = std::array<double, 2>;
+  /// Side k is opposite corner k.
   explicit Polygon(const std::array<Vector, 3>& corners) : size_(3) {
-    std::copy(corners.begin(), corners.end(), corners_.begin());
+    for (std::size_t i = 0; i < 3; ++i) corners_[i] = {corners[i], static_cast<std::uint8_t>((i + 2) % 3)};
   }
 
-  /// Keeps what is on the inner side. @returns whether anything is
+  /// Keeps what is on the inner side; the cut is this side. @returns whether anything is
   template <class At>
-  bool cut(const At& at) {
+  bool cut(std::uint8_t side, const At& at) {
     std::array<double, most> sides;  // as all here, not set beyond size_: to clear what is not used takes as long as a cut
-    for (std::size_t i = 0; i < size_; ++i) sides[i] = at(corners_[i]);
-    std::array<Vector, most> out;
+    for (std::size_t i = 0; i < size_; ++i) sides[i] = at(corners_[i].place);
+    std::array<Corner, most> out;
     std::size_t n = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const std::size_t k = (i + 1) % size_;
-      if (sides[i] >= 0) out[n++] = corners_[i];
-      if ((sides[i] >= 0) != (sides[k] >= 0))
-        out[n++] = sides[i] >= 0 ? between(corners_[i], sides[i], corners_[k], sides[k])
-                                 : between(corners_[k], sides[k], corners_[i], sides[i]);
+      const Corner &a = corners_[i], &b = corners_[k];
+      if (sides[i] >= 0) out[n++] = a;
+      if ((sides[i] >= 0) == (sides[k] >= 0)) continue;
+      out[n++] = sides[i] >= 0 ? Corner{between(a.place, sides[i], b.place, sides[k]), side}
+                               : Corner{between(b.place, sides[k], a.place, sides[i]), a.side};
     }
     std::copy_n(out.begin(), n, corners_.begin());
     size_ = n;
     return n > 0;
   }
 
-  double measure() const {
+  /// Which sides it has, as bits.
+  unsigned sides() const {
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < size_; ++i) bits |= 1u << corners_[i].side;
+    return bits;
+  }
+
+  /// Points on the sides are not needed.
+  template <class Places>
+  double measure(const Places&) const {
     double twice = 0;
     for (std::size_t i = 1; i + 1 < size_; ++i) {
-      const auto &a = corners_[0], &b = corners_[i], &c = corners_[i + 1];
+      const auto &a = corners_[0].place, &b = corners_[i].place, &c = corners_[i + 1].place;
       twice += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     }
     return std::abs(twice) / 2;
   }
 
  private:
+  struct Corner {
+    Vector place;
+    std::uint8_t side;  ///< to the next corner
+  };
   static constexpr std::size_t most = 16;  // three corners; each cut adds one, or with rounding two
-  std::array<Vector, most> corners_;
+  std::array<Corner, most> corners_;
   std::size_t size_;
 };
 
 /// A convex polyhedron as the graph of its edges: each vertex has three neighbours, in the order in which they are seen from
-/// outside. A cut puts a vertex on each edge that it crosses, and links these along the faces that it crosses.
+/// outside, and three sides, of which side k is between edge k and the next. A cut puts a vertex on each edge that it crosses,
+/// and links these along the sides that it crosses. Sides have numbers: those of the tetrahedron that it was, then those of cuts.
 class Polyhedron {
  public:
   using Vector = std::array<double, 3>;
+  /// Side k is opposite corner k.
   explicit Polyhedron(const std::array<Vector, 4>& corners) : size_(4) {
-    constexpr std::array<std::array<int, 3>, 4> beside{{{1, 3, 2}, {2, 3, 0}, {0, 3, 1}, {1, 2, 0}}};
-    for (std::size_t i = 0; i < 4; ++i) vertices_[i] = {corners[i], beside[i]};
+    constexpr std::array<std::array<std::uint8_t, 3>, 4> beside{{{1, 3, 2}, {2, 3, 0}, {0, 3, 1}, {1, 2, 0}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& b = beside[i];
+      vertices_[i] = {corners[i], b, {b[2], b[0], b[1]}};
+    }
   }
 
-  /// Keeps what is on the inner side. @returns whether anything is
+  /// Keeps what is on the inner side; the cut is this side. @returns whether anything is
   template <class At>
-  bool cut(const At& at) {
+  bool cut(std::uint8_t side, const At& at) {
     std::array<double, most> sides;
     std::size_t outside = 0;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -84,91 +108,116 @@ class Polyhedron {
     const std::size_t old = size_;
     for (std::size_t v = 0; v < old; ++v) {
       if (sides[v] < 0) continue;
-      for (int& beside : vertices_[v].beside) {
-        const auto w = static_cast<std::size_t>(beside);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t w = vertices_[v].beside[k];
         if (w >= old || !(sides[w] < 0)) continue;
-        vertices_[size_] = {between(vertices_[v].place, sides[v], vertices_[w].place, sides[w]), {static_cast<int>(v), -1, -1}};
-        beside = static_cast<int>(size_++);
+        vertices_[size_] = {between(vertices_[v].place, sides[v], vertices_[w].place, sides[w]),
+                            {static_cast<std::uint8_t>(v), nobody, nobody},
+                            {vertices_[v].sides[k == 0 ? 2 : k - 1], side, vertices_[v].sides[k]}};
+        vertices_[v].beside[k] = static_cast<std::uint8_t>(size_++);
       }
     }
-    for (std::size_t v = old; v < size_; ++v)
-      if (!link(v, old)) return false;
+    if (!link_by_sides(old))
+      for (std::size_t v = old; v < size_; ++v)
+        if (!link(v, old)) return false;
     drop(sides, old);
     return true;
   }
 
-  double measure() const {
-    double sixfold = 0;
-    std::array<std::array<bool, 3>, most> done;
-    std::fill_n(done.begin(), size_, std::array<bool, 3>{});
+  /// Which sides it has, as bits.
+  unsigned sides() const {
+    unsigned bits = 0;
     for (std::size_t v = 0; v < size_; ++v)
-      for (int k = 0; k < 3; ++k)
-        if (!done[v][static_cast<std::size_t>(k)]) sixfold += face_at(v, k, done);
+      for (const std::uint8_t side : vertices_[v].sides) bits |= 1u << side;
+    return bits;
+  }
+
+  /// The sum over all sides of their areas times their distances from the origin: each edge ab counts a x b for the side to its
+  /// left, and as much less for that to its right.
+  /// @param on_side  of each side any point of its plane
+  template <class Places>
+  double measure(const Places& on_side) const {
+    double sixfold = 0;
+    for (std::size_t v = 0; v < size_; ++v) {
+      const Vertex& a = vertices_[v];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (a.beside[k] <= v) continue;
+        const Vector &b = vertices_[a.beside[k]].place, &left = on_side[a.sides[k]],
+                     &right = on_side[a.sides[k == 0 ? 2 : k - 1]];
+        sixfold += (a.place[1] * b[2] - a.place[2] * b[1]) * (left[0] - right[0]) +
+                   (a.place[2] * b[0] - a.place[0] * b[2]) * (left[1] - right[1]) +
+                   (a.place[0] * b[1] - a.place[1] * b[0]) * (left[2] - right[2]);
+      }
+    }
     return std::abs(sixfold) / 6;
   }
 
  private:
+  static constexpr std::uint8_t nobody = 255;
   struct Vertex {
     Vector place;
-    std::array<int, 3> beside;
+    std::array<std::uint8_t, 3> beside, sides;
   };
   /// Of a convex polyhedron of eight faces there are 12 vertices. Whatever rounding says of sides, a cut no more than doubles
   /// them: 64 after four, and 80 during the last.
   static constexpr std::size_t most = 80;
+  static constexpr std::size_t most_sides = 8;
 
-  const Vector& place(int v) const { return vertices_[static_cast<std::size_t>(v)].place; }
-  int beside(int v, int k) const { return vertices_[static_cast<std::size_t>(v)].beside[static_cast<std::size_t>(k)]; }
-  /// Along a face: the number of the edge at w that follows the one from v.
-  int next_edge(int v, int w) const {
-    int k = 0;
-    while (k < 2 && beside(w, k) != v) ++k;
+  /// Two new vertices on each side that is crossed. @returns false, and leaves what is to be found by walks, where a side is
+  /// crossed more than once, as by rounding where it lies in the plane of the cut
+  bool link_by_sides(std::size_t old) {
+    std::array<std::uint8_t, most_sides> to;
+    to.fill(nobody);
+    for (std::size_t v = old; v < size_; ++v) {
+      std::uint8_t& there = to[vertices_[v].sides[0]];
+      if (there != nobody) return false;
+      there = static_cast<std::uint8_t>(v);
+    }
+    for (std::size_t v = old; v < size_; ++v) {
+      std::uint8_t& there = to[vertices_[v].sides[2]];
+      if (there == nobody) return false;
+      vertices_[v].beside[2] = there;
+      vertices_[there].beside[1] = static_cast<std::uint8_t>(v);
+      there = nobody;
+    }
+    return true;
+  }
+
+  /// Along a side: the number of the edge at w that follows the one from v.
+  std::size_t next_edge(std::size_t v, std::size_t w) const {
+    std::size_t k = 0;
+    while (k < 2 && vertices_[w].beside[k] != v) ++k;
     return (k + 1) % 3;
   }
 
-  /// From a new vertex along a face to the next new one. @returns false if there is none, as where rounding has made a part so
+  /// From a new vertex along a side to the next new one. @returns false if there is none, as where rounding has made a part so
   /// thin that it is no polyhedron any more: it counts as nothing
   bool link(std::size_t first, std::size_t old) {
-    int v = static_cast<int>(first), w = beside(v, 0);
+    std::size_t v = first, w = vertices_[first].beside[0];
     for (std::size_t steps = 0; steps < 2 * most; ++steps) {
-      const int k = next_edge(v, w);
+      const std::size_t k = next_edge(v, w);
       v = w;
-      w = beside(v, k);
-      if (static_cast<std::size_t>(v) < old) continue;
-      vertices_[first].beside[2] = v;
-      vertices_[static_cast<std::size_t>(v)].beside[1] = static_cast<int>(first);
+      w = vertices_[w].beside[k];
+      if (v < old) continue;
+      vertices_[first].beside[2] = static_cast<std::uint8_t>(v);
+      vertices_[v].beside[1] = static_cast<std::uint8_t>(first);
       return true;
     }
     return false;
   }
 
   void drop(const std::array<double, most>& sides, std::size_t old) {
-    std::array<int, most> number;
+    std::array<std::uint8_t, most> number;
     std::size_t n = 0;
     for (std::size_t v = 0; v < size_; ++v) {
       if (v < old && sides[v] < 0) continue;
-      number[v] = static_cast<int>(n);
-      vertices_[n++] = vertices_[v];
+      number[v] = static_cast<std::uint8_t>(n);
+      if (n != v) vertices_[n] = vertices_[v];
+      ++n;
     }
     size_ = n;
     for (std::size_t v = 0; v < size_; ++v)
-      for (int& w : vertices_[v].beside) w = number[static_cast<std::size_t>(w)];
-  }
-
-  /// Six times the volume between a face and the origin.
-  double face_at(std::size_t first, int k, std::array<std::array<bool, 3>, most>& done) const {
-    double sixfold = 0;
-    const int start = static_cast<int>(first);
-    int v = start, w = beside(v, k);
-    done[first][static_cast<std::size_t>(k)] = true;
-    for (std::size_t steps = 0; w != start && steps < 2 * most; ++steps) {
-      k = next_edge(v, w);
-      const int from = v;
-      v = w;
-      w = beside(v, k);
-      done[static_cast<std::size_t>(v)][static_cast<std::size_t>(k)] = true;
-      if (from != start) sixfold += determinant(place(start), place(from), place(v));
-    }
-    return sixfold;
+      for (std::uint8_t& w : vertices_[v].beside) w = number[w];
   }
 
   std::array<Vertex, most> vertices_;
@@ -179,7 +228,7 @@ class Polyhedron {
 
 template <int D>
 InsideOf<D>::InsideOf(const Simplex<D>& simplex) : origin_(simplex[0]) {
-  std::array<Vector, D + 1> x;
+  std::array<Vector, D + 1>& x = corners_;
   for (std::size_t i = 0; i <= D; ++i) x[i] = relative(simplex[i]);
   for (std::size_t k = 0; k <= D; ++k) {
     const Vector& base = x[(k + 1) % (D + 1)];
@@ -209,7 +258,7 @@ InsideOf<D>::InsideOf(const Simplex<D>& simplex) : origin_(simplex[0]) {
 }
 
 template <int D>
-double InsideOf<D>::common_with(const Simplex<D>& other) const {
+double InsideOf<D>::common_with(const Simplex<D>& other, unsigned& sides) const {
   std::array<Vector, D + 1> x;
   for (std::size_t i = 0; i <= D; ++i) x[i] = relative(other[i]);
   std::array<bool, D + 1> cuts;
@@ -225,8 +274,16 @@ double InsideOf<D>::common_with(const Simplex<D>& other) const {
   }
   std::conditional_t<D == 2, Polygon, Polyhedron> part(x);
   for (std::size_t k = 0; k <= D; ++k)
-    if (cuts[k] && !part.cut([&plane = planes_[k]](const Vector& p) { return plane.at(p); })) return 0;
-  return part.measure();
+    if (cuts[k] &&
+        !part.cut(static_cast<std::uint8_t>(D + 1 + k), [&plane = planes_[k]](const Vector& p) { return plane.at(p); }))
+      return 0;
+  std::array<Vector, 2 * (D + 1)> on_side;
+  for (std::size_t k = 0; k <= D; ++k) {
+    on_side[k] = x[(k + 1) % (D + 1)];
+    on_side[D + 1 + k] = corners_[(k + 1) % (D + 1)];
+  }
+  sides = part.sides() & ((1u << (D + 1)) - 1);
+  return part.measure(on_side);
 }
 
 template class InsideOf<2>;

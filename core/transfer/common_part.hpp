@@ -19,7 +19,8 @@ class InsideOf {
   /// Volume (area).
   double measure() const { return measure_; }
   /// The measure of what the other simplex has in common with this one.
-  double common_with(const Simplex<D>& other) const;
+  /// @param sides  if there is anything: which sides of the other simplex bound it, as bits; side k is opposite corner k
+  double common_with(const Simplex<D>& other, unsigned& sides) const;
 
  private:
   using Vector = std::array<double, D>;
@@ -40,6 +41,7 @@ class InsideOf {
   }
 
   Point<D> origin_;
+  std::array<Vector, D + 1> corners_;
   std::array<Plane, D + 1> planes_;
   double measure_ = 0;
 };

@@ -3,13 +3,17 @@
 #include "pgdr/transfer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "output/face_groups.hpp"
 #include "output/interpolation.hpp"
 #include "output/simplices.hpp"
 #include "pgdr/error.hpp"
@@ -105,6 +109,124 @@ class NearestCells {
   std::optional<detail::BoxTree<D>> tree_;
 };
 
+/// A few numbers, of which it is asked whether they are there already: in a table on the stack, until they are many.
+class NumberSet {
+ public:
+  NumberSet() { few_.fill(none); }
+  /// @returns false if it was there
+  bool add(std::uint32_t number) {
+    if (2 * ++count_ > slots().size()) grow();
+    const bool is_new = put(number);
+    if (!is_new) --count_;
+    return is_new;
+  }
+
+ private:
+  std::span<std::uint32_t> slots() { return many_.empty() ? std::span<std::uint32_t>(few_) : std::span<std::uint32_t>(many_); }
+  bool put(std::uint32_t number) {
+    const std::span<std::uint32_t> all = slots();
+    const std::size_t mask = all.size() - 1;
+    std::size_t at = number * 2654435761u & mask;  // Knuth's multiplier
+    for (; all[at] != none; at = (at + 1) & mask)
+      if (all[at] == number) return false;
+    all[at] = number;
+    return true;
+  }
+  void grow() {
+    const std::span<std::uint32_t> now = slots();
+    const std::vector<std::uint32_t> before(now.begin(), now.end());
+    many_.assign(4 * before.size(), none);
+    for (const std::uint32_t number : before)
+      if (number != none) put(number);
+  }
+
+  std::array<std::uint32_t, 128> few_;
+  std::vector<std::uint32_t> many_;
+  std::size_t count_ = 0;
+};
+
+/// Beyond each side of each cell the cell there; none: there is none, or more than one.
+template <int D>
+std::vector<std::array<std::uint32_t, D + 1>> cells_beyond(const OutputMesh<D>& mesh, const detail::Bulk& bulk) {
+  std::array<std::uint32_t, D + 1> alone;
+  alone.fill(none);
+  std::vector<std::array<std::uint32_t, D + 1>> beyond(mesh.cells.size(), alone);
+  std::vector<std::size_t> begin;
+  std::vector<detail::CellFace<D>> faces = detail::faces_by_vertex<D>(mesh, begin);
+  bulk.each(mesh.points.size(), [&](std::size_t v) {
+    const auto group = std::span(faces).subspan(begin[v], begin[v + 1] - begin[v]);
+    std::ranges::sort(group, {}, [](const detail::CellFace<D>& f) { return std::pair(f.others, f.place); });
+    for (std::size_t i = 0, next; i < group.size(); i = next) {
+      for (next = i + 1; next < group.size() && group[next].others == group[i].others;) ++next;
+      if (next - i != 2) continue;
+      beyond[group[i].cell()][group[i].corner()] = group[i + 1].cell();
+      beyond[group[i + 1].cell()][group[i + 1].corner()] = group[i].cell();
+    }
+  });
+  return beyond;
+}
+
+/// Finds the cells of a mesh that have something in common with another cell. Such a cell is convex, and what it has of the mesh
+/// hangs together through sides of which it has an area, unless the mesh is not all around it: so the cells are found by a walk
+/// from those about its centre through such sides. Where they do not fill it, as at boundaries that differ, all are looked at
+/// whose boxes meet its own. Where it begins, and so what it finds, is a function of the meshes alone.
+template <int D>
+class Overlaps {
+ public:
+  Overlaps(const OutputMesh<D>& mesh, const detail::Bulk& bulk) : mesh_(mesh), beyond_(cells_beyond(mesh, bulk)) {
+    std::vector<detail::Box<D>> boxes(mesh.cells.size());
+    bulk.each(boxes.size(), [&](std::size_t c) { boxes[c] = detail::Box<D>::of(corners_of(mesh, c)); });
+    tree_.emplace(boxes, bulk);
+  }
+
+  /// Calls begin(), and then found(i, measure) for each cell i that has so much in common with `cell`, whose corners are these;
+  /// may do so twice, and the second time counts.
+  template <class Begin, class Found>
+  void find(const detail::InsideOf<D>& cell, const Simplex<D>& corners, const Begin& begin, const Found& found) const {
+    begin();
+    if (walk(cell, corners, found) >= (1 - missing) * cell.measure()) return;
+    begin();
+    tree_->meeting(detail::Box<D>::of(corners), [&](std::uint32_t i) {
+      unsigned sides = 0;
+      if (const double measure = cell.common_with(corners_of(mesh_, i), sides); measure > 0) found(i, measure);
+    });
+  }
+
+ private:
+  static constexpr double missing = 0x1p-42;  // of a measure: more than rounding leaves of usual cells, less than matters
+
+  /// @returns the measure of all that was found
+  template <class Found>
+  double walk(const detail::InsideOf<D>& cell, const Simplex<D>& corners, const Found& found) const {
+    NumberSet seen;
+    std::vector<std::uint32_t> waiting;
+    const auto add = [&](std::uint32_t i) {
+      if (i != none && seen.add(i)) waiting.push_back(i);
+    };
+    Point<D> centre{};
+    for (const Point<D>& p : corners)
+      for (int k = 0; k < D; ++k) centre[k] += p[k] / (D + 1);
+    tree_->at(centre, add);
+    double sum = 0;
+    while (!waiting.empty()) {
+      const std::uint32_t i = waiting.back();
+      waiting.pop_back();
+      unsigned sides = 0;
+      const double measure = cell.common_with(corners_of(mesh_, i), sides);
+      if (!(measure > 0)) continue;
+      sum += measure;
+      found(i, measure);
+      for (std::size_t k = 0; k <= D; ++k)
+        if (sides >> k & 1u) add(beyond_[i][k]);
+    }
+    return sum;
+  }
+
+  const OutputMesh<D>& mesh_;
+  std::vector<std::array<std::uint32_t, D + 1>> beyond_;
+  std::optional<detail::BoxTree<D>> tree_;
+};
+
 }  // namespace
 
 template <int D>
@@ -139,26 +261,21 @@ CellTransfer<D>::CellTransfer(const OutputMesh<D>& from, const OutputMesh<D>& to
   const detail::Bulk bulk(true);
   const std::array<std::vector<std::uint32_t>, 2> labels = common_labels(from, to);
   const std::vector<std::uint32_t>&old_labels = labels[0], &new_labels = labels[1];
-  std::vector<detail::Box<D>> boxes(from.cells.size());
   measures_.resize(from.cells.size());
-  bulk.each(boxes.size(), [&](std::size_t c) {
-    const Simplex<D> s = corners_of(from, c);
-    boxes[c] = detail::Box<D>::of(s);
-    measures_[c] = detail::InsideOf<D>(s).measure();
-  });
+  bulk.each(measures_.size(), [&](std::size_t c) { measures_[c] = detail::InsideOf<D>(corners_of(from, c)).measure(); });
   if (std::ranges::all_of(measures_, [](double m) { return m == 0; })) bad_option("the old mesh has no cell with a volume");
-  const detail::BoxTree<D> tree(boxes, bulk);
+  const Overlaps<D> old_cells(from, bulk);
   new_measures_.resize(new_cells_);
   parts_ = bulk.template gather<Part>(new_cells_, [&](std::size_t j, std::vector<Part>& out) {
     const Simplex<D> s = corners_of(to, j);
     const detail::InsideOf<D> cell(s);
     new_measures_[j] = cell.measure();
     const std::size_t first = out.size();
-    tree.meeting(detail::Box<D>::of(s), [&](std::uint32_t i) {
-      if (old_labels[i] != new_labels[j]) return;
-      if (const double measure = cell.common_with(corners_of(from, i)); measure > 0)
-        out.push_back({static_cast<std::uint32_t>(j), i, measure});
-    });
+    old_cells.find(
+        cell, s, [&] { out.resize(first); },
+        [&](std::uint32_t i, double measure) {
+          if (old_labels[i] == new_labels[j]) out.push_back({static_cast<std::uint32_t>(j), i, measure});
+        });
     std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
               [](const Part& a, const Part& b) { return a.from < b.from; });
   });
