@@ -62,6 +62,7 @@ bool covers(const Triangle& t, std::vector<Triangle> others, std::size_t most_pa
     detail::sort_corners(o);
     cover.add(o);
   }
+  cover.use(cover.between(0, cover.size()), [](std::uint32_t) { return true; });
   return cover.covers(detail::CutPolygon(t), most_parts, 10);
 }
 

@@ -6,6 +6,7 @@ namespace pgdr::detail {
 
 std::vector<std::uint32_t> SurfaceComplex::neighbours(std::uint32_t v) const {
   std::vector<std::uint32_t> out;
+  out.reserve(2 * faces_at[v].size() + kept_at[v].size());
   for (const std::uint32_t f : faces_at[v])
     for (const std::uint32_t w : faces[f].corners)
       if (w != v) out.push_back(w);

@@ -7,7 +7,6 @@
 
 #include "replace/complex.hpp"
 #include "replace/numbers.hpp"
-#include "space/distances.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -95,39 +94,39 @@ bool cut_to_box(CutPolygon& polygon, const Box<3>& box) {
 }
 
 void Cover::add(const std::array<Point3, 3>& sorted_corners) {
-  used_.push_back(static_cast<std::uint32_t>(size()));
+  numbers_.push_back(static_cast<std::uint32_t>(size()));
   boxes_.push_back(Box<3>::of(sorted_corners));
   triangles_.push_back({.corners = sorted_corners});
 }
 
-const Cover::Triangle& Cover::with_plane(std::size_t number) const {
+const Cover::Plane& Cover::plane_of(std::size_t number) {
   Triangle& t = triangles_[number];
-  if (t.is_known) return t;
-  t.is_known = true;
+  if (t.plane != none) return planes_[t.plane];
+  t.plane = static_cast<std::uint32_t>(planes_.size());
+  Plane& plane = planes_.emplace_back();
   const auto& c = t.corners;
-  t.normal = cross(difference(c[1], c[0]), difference(c[2], c[0]));
-  t.has_plane = normalize(t.normal);
-  for (std::size_t i = 0; i < 3 && t.has_plane; ++i) {
-    t.outward[i] = cross(difference(c[(i + 1) % 3], c[i]), t.normal);
-    t.has_plane = normalize(t.outward[i]);
+  plane.normal = cross(difference(c[1], c[0]), difference(c[2], c[0]));
+  plane.is_one = normalize(plane.normal);
+  for (std::size_t i = 0; i < 3 && plane.is_one; ++i) {
+    plane.outward[i] = cross(difference(c[(i + 1) % 3], c[i]), plane.normal);
+    plane.is_one = normalize(plane.outward[i]);
   }
-  return t;
+  return plane;
 }
 
-bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const {
-  std::size_t left = first + each * used_.size();
-  return !used_.empty() && look(polygon, 0, left);
+bool Cover::covers(const CutPolygon& polygon, std::size_t first, std::size_t each) {
+  const List used{0, lists_.size()};
+  std::size_t left = first + each * used.last;
+  const bool is_covered = used.last > 0 && look(polygon, used, 0, left);
+  lists_.resize(used.last);
+  return is_covered;
 }
 
-bool Cover::is_near(std::size_t t, const Point3& p) const {
-  const auto& c = triangles_[t].corners;
-  return is_near_triangle(p, c[0], c[1], c[2], square_);
-}
-
-bool Cover::reaches(const Point3& p) const {
-  for (const std::uint32_t t : used_)
-    if (boxes_[t].squared_distance_to(p) <= square_ && is_near(t, p)) return true;
-  return false;
+const TriangleDistance& Cover::distance_of(std::size_t number) const {
+  Triangle& t = triangles_[number];
+  if (t.distance != none) return distances_[t.distance];
+  t.distance = static_cast<std::uint32_t>(distances_.size());
+  return distances_.emplace_back(t.corners[0], t.corners[1], t.corners[2]);
 }
 
 bool Cover::might_hold(std::size_t t, const Box<3>& box) const {
@@ -138,75 +137,107 @@ bool Cover::might_hold(std::size_t t, const Box<3>& box) const {
 }
 
 bool Cover::holds(std::size_t t, std::span<const Point3> corners) const {
-  return std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return is_near(t, p); });
+  const TriangleDistance& distance = distance_of(t);
+  return std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return distance.is_within(p, square_); });
 }
 
-bool Cover::has_one_near(std::span<const Point3> corners) const {
+bool Cover::has_one_near(std::span<const Point3> corners, std::span<const std::uint32_t> numbers) const {
   const Box<3> box = Box<3>::of(corners);
-  for (const std::uint32_t t : used_)
+  for (const std::uint32_t t : numbers)
     if (might_hold(t, box) && holds(t, corners)) return true;
   return false;
 }
 
+bool Cover::reaches(const Point3& p, std::span<const std::uint32_t> numbers) const {
+  for (const std::uint32_t t : numbers)
+    if (boxes_[t].squared_distance_to(p) <= square_ && distance_of(t).is_within(p, square_)) return true;
+  return false;
+}
+
 /// Its number; size(): none is within e.
-std::size_t Cover::nearest(const Point3& p) const {
+std::size_t Cover::nearest(const Point3& p, const List& list) const {
   std::size_t best = size();
   double square = square_;
-  for (const std::uint32_t t : used_) {
+  for (const std::uint32_t t : numbers(list)) {
     if (boxes_[t].squared_distance_to(p) > square) continue;
-    const auto& c = triangles_[t].corners;
-    const double d = TriangleDistance(p, c[0], c[1], c[2]).square();
-    if (d > square || (d == square && best < size() && !triangle_less(c, triangles_[best].corners))) continue;
+    const double d = distance_of(t).square(p);
+    const bool is_tie = d == square && best < size();
+    if (d > square || (is_tie && !triangle_less(triangles_[t].corners, triangles_[best].corners))) continue;
     square = d;
     best = t;
   }
   return best;
 }
 
-bool Cover::look(const CutPolygon& polygon, int depth, std::size_t& left) const {
+/// Those whose boxes come near this one.
+Cover::List Cover::narrowed(const List& list, const Box<3>& box) {
+  const std::size_t first = lists_.size();
+  const Box<3> reach = with_margin(box);
+  lists_.resize(first + (list.last - list.first));
+  std::size_t end = first;
+  for (std::size_t k = list.first; k < list.last; ++k) {
+    lists_[end] = lists_[k];
+    end += boxes_[lists_[k]].meets(reach);
+  }
+  lists_.resize(end);
+  return {first, end};
+}
+
+bool Cover::look(const CutPolygon& polygon, const List& wide, int depth, std::size_t& left) {
   if (polygon.count() < 3) return true;  // no more than an edge of another part
   if (left == 0 || depth > deepest) return false;
   --left;
   const Point3 c = centre(polygon);
-  const std::size_t t = nearest(c);
-  if (t == size()) return false;
-  if (holds(t, polygon.all()) || has_one_near(polygon.all())) return true;
-  if (with_plane(t).has_plane) {
+  Box<3> box = Box<3>::of(polygon.all());
+  box.add(c);  // which rounding may have put beside it
+  const List list = narrowed(wide, box);
+  const auto done = [&](bool answer) {
+    lists_.resize(list.first);
+    return answer;
+  };
+  const std::size_t t = nearest(c, list);
+  if (t == size()) return done(false);
+  if (holds(t, polygon.all()) || has_one_near(polygon.all(), numbers(list))) return done(true);
+  if (plane_of(t).is_one) {
     bool was_cut = false;
-    const bool is_covered = look_beyond(t, polygon, c, depth, left, was_cut);
-    if (was_cut) return is_covered;
+    const bool is_covered = look_beyond(t, polygon, c, list, depth, left, was_cut);
+    if (was_cut) return done(is_covered);
   }
-  return look_at_halves(polygon, depth, left);
+  return done(look_at_halves(polygon, list, depth, left));
 }
 
-bool Cover::look_beyond(std::size_t number, const CutPolygon& polygon, const Point3& c, int depth, std::size_t& left,
-                        bool& was_cut) const {
-  const Triangle& t = triangles_[number];
+bool Cover::look_beyond(std::size_t number, const CutPolygon& polygon, const Point3& c, const List& list, int depth,
+                        std::size_t& left, bool& was_cut) {
+  const Point3& corner = triangles_[number].corners[0];
   std::array<CutPolygon, 5> rest;
-  CutPolygon here = polygon, inside;
+  std::array<CutPolygon, 2> both{polygon, {}};
+  CutPolygon *here = &both[0], *inside = &both[1];
   std::size_t parts = 0;
-  const double level = height(t.normal, t.corners[0]), reach = part_of_height * e_;
   // With the centroid inside, what is cut off is no more than 5/9 of the polygon each time, so that this ends. An edge alone
   // could be inside again and again.
   const auto take = [&](const Vector<3>& normal, double offset) {
-    if (height(normal, c) > offset || !cut(here, normal, offset, inside, rest[parts])) return false;
-    here = inside;
+    if (height(normal, c) > offset || !cut(*here, normal, offset, *inside, rest[parts])) return false;
+    std::swap(here, inside);
     if (rest[parts].count() > 0) ++parts;
-    return here.count() > 0;
+    return here->count() > 0;
   };
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!take(t.outward[i], height(t.outward[i], t.corners[i]))) return false;
-  Vector<3> down = t.normal;
-  for (double& x : down) x = -x;
-  if (!take(t.normal, level + reach) || !take(down, reach - level)) return false;
-  if (!holds(number, here.all()) || parts == 0) return false;
+  {
+    const Plane& plane = plane_of(number);
+    const double level = height(plane.normal, corner), reach = part_of_height * e_;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!take(plane.outward[i], height(plane.outward[i], triangles_[number].corners[i]))) return false;
+    Vector<3> down = plane.normal;
+    for (double& x : down) x = -x;
+    if (!take(plane.normal, level + reach) || !take(down, reach - level)) return false;
+  }
+  if (!holds(number, here->all()) || parts == 0) return false;
   was_cut = true;
   for (std::size_t k = 0; k < parts; ++k)
-    if (!look(rest[k], depth + 1, left)) return false;
+    if (!look(rest[k], list, depth + 1, left)) return false;
   return true;
 }
 
-bool Cover::look_at_halves(const CutPolygon& polygon, int depth, std::size_t& left) const {
+bool Cover::look_at_halves(const CutPolygon& polygon, const List& list, int depth, std::size_t& left) {
   double longest = -1;
   const Point3 *from = nullptr, *to = nullptr;
   const auto all = polygon.all();
@@ -224,7 +255,7 @@ bool Cover::look_at_halves(const CutPolygon& polygon, int depth, std::size_t& le
   if (!normalize(along)) return false;
   CutPolygon near, far;
   if (!cut(polygon, along, height(along, on_edge(*from, *to, 0.5)), near, far)) return false;
-  return look(near, depth + 1, left) && look(far, depth + 1, left);
+  return look(near, list, depth + 1, left) && look(far, list, depth + 1, left);
 }
 
 bool SegmentCover::covers(const Point3& a, const Point3& b) const {

@@ -15,13 +15,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <numeric>
 #include <span>
 #include <vector>
 
 #include "numbers/vectors.hpp"
 #include "pgdr/types.hpp"
 #include "space/box.hpp"
+#include "space/distances.hpp"
 
 namespace pgdr::detail {
 
@@ -65,54 +65,82 @@ bool cut(const CutPolygon& polygon, const Vector<3>& normal, double offset, CutP
 /// The part of it in a box; of no corners if none is. @returns false if it has too many corners
 bool cut_to_box(CutPolygon& polygon, const Box<3>& box);
 
-/// Triangles that are to cover something, or some of them: what is asked is asked of those in use. May be asked by one thread at
-/// a time.
+/// Triangles that are to cover something, or some of them. May be asked by one thread at a time.
+///
+/// A part is looked at beside the triangles whose boxes come near its own, which are found among those of the part that it was
+/// cut off: so a question takes about n log n steps of n parts and triangles, not n^2. What is left out is farther from the part
+/// than e, and would have had no part in any answer.
 class Cover {
  public:
-  explicit Cover(double e) : e_(e), square_(e * e) {}
-  /// Its corners in the order of their coordinates, so that no decision hangs on their numbers. Takes it in use.
+  explicit Cover(double e) : e_(e), square_(e * e) {
+    constexpr std::size_t usual = 32;
+    boxes_.reserve(usual);
+    triangles_.reserve(usual);
+    numbers_.reserve(usual);
+  }
+  /// Its corners in the order of their coordinates, so that no decision hangs on their numbers.
   void add(const std::array<Point3, 3>& sorted_corners);
   std::size_t size() const { return triangles_.size(); }
-  /// Takes those with is_used(number, box) in use, and no others.
+  const Box<3>& box(std::size_t t) const { return boxes_[t]; }
+  /// The numbers of those from one on and before another, until one is added.
+  std::span<const std::uint32_t> between(std::size_t first, std::size_t last) const {
+    return std::span(numbers_).subspan(first, last - first);
+  }
+
+  /// Takes those of these numbers in use with is_used(number), which covers() asks.
   template <class IsUsed>
-  void use(const IsUsed& is_used) {
-    used_.clear();
-    for (std::uint32_t t = 0; t < boxes_.size(); ++t)
-      if (is_used(t, boxes_[t])) used_.push_back(t);
+  void use(std::span<const std::uint32_t> numbers, const IsUsed& is_used) {
+    lists_.clear();
+    for (const std::uint32_t t : numbers)
+      if (is_used(t)) lists_.push_back(t);
   }
-  /// Takes those in use that were added from the first of these numbers on, and before the second.
-  void use_between(std::size_t first, std::size_t last) {
-    used_.resize(last - first);
-    std::iota(used_.begin(), used_.end(), static_cast<std::uint32_t>(first));
-  }
-  /// Is each point of the polygon within e of these? @param first, each  so many parts are looked at, and so many more a triangle
-  bool covers(const CutPolygon& polygon, std::size_t first, std::size_t each) const;
-  /// Is each point of a polygon within e of one of these? Then they cover it.
-  bool has_one_near(std::span<const Point3> corners) const;
-  /// Is a point within e of these? Where one is not they cover nothing that has it.
-  bool reaches(const Point3& p) const;
+  /// Is each point of the polygon within e of those in use? @param first, each  so many parts are looked at, and so many more a
+  /// triangle
+  bool covers(const CutPolygon& polygon, std::size_t first, std::size_t each);
+  /// Is each point of a polygon within e of one of these triangles? Then they cover it.
+  bool has_one_near(std::span<const Point3> corners, std::span<const std::uint32_t> numbers) const;
+  /// Is a point within e of one of these triangles? Where it is not they cover nothing that has it.
+  bool reaches(const Point3& p, std::span<const std::uint32_t> numbers) const;
+  /// Around what is within e of this box, and a little more for rounding: e may be no more than some hundred ulps.
+  Box<3> with_margin(const Box<3>& box) const { return box.widened(1.0625 * e_); }
 
  private:
   struct Triangle {
     std::array<Point3, 3> corners;
-    Vector<3> normal{};                        ///< of length 1
-    std::array<Vector<3>, 3> outward{};        ///< of length 1, in the plane, normal to edge i from corner i to the next
-    bool has_plane = false, is_known = false;  ///< is there such a plane? Has it been made?
+    std::uint32_t distance = none, plane = none;  ///< where they are, once they have been asked for
   };
-  bool look(const CutPolygon& polygon, int depth, std::size_t& left) const;
-  std::size_t nearest(const Point3& p) const;
-  bool is_near(std::size_t t, const Point3& p) const;
+  struct Plane {
+    Vector<3> normal{};                  ///< of length 1
+    std::array<Vector<3>, 3> outward{};  ///< of length 1, in the plane, normal to edge i from corner i to the next
+    bool is_one = false;                 ///< is there such a plane?
+  };
+  /// Those of lists_ that have to do with a part.
+  struct List {
+    std::size_t first, last;
+  };
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  std::span<const std::uint32_t> numbers(const List& list) const {
+    return std::span(lists_).subspan(list.first, list.last - list.first);
+  }
+  List narrowed(const List& list, const Box<3>& box);
+  bool look(const CutPolygon& polygon, const List& wide, int depth, std::size_t& left);
+  std::size_t nearest(const Point3& p, const List& list) const;
   bool might_hold(std::size_t t, const Box<3>& box) const;
   bool holds(std::size_t t, std::span<const Point3> corners) const;
-  const Triangle& with_plane(std::size_t t) const;
-  bool look_beyond(std::size_t t, const CutPolygon& polygon, const Point3& centre, int depth, std::size_t& left,
-                   bool& was_cut) const;
-  bool look_at_halves(const CutPolygon& polygon, int depth, std::size_t& left) const;
+  const TriangleDistance& distance_of(std::size_t t) const;
+  const Plane& plane_of(std::size_t t);
+  bool look_beyond(std::size_t t, const CutPolygon& polygon, const Point3& centre, const List& list, int depth, std::size_t& left,
+                   bool& was_cut);
+  bool look_at_halves(const CutPolygon& polygon, const List& list, int depth, std::size_t& left);
 
   double e_, square_;
-  std::vector<std::uint32_t> used_;
-  std::vector<Box<3>> boxes_;                // beside the triangles, as most are looked at no closer
-  mutable std::vector<Triangle> triangles_;  // planes are made when they are asked for
+  std::vector<Box<3>> boxes_;  // beside the triangles, as most are looked at no closer
+  mutable std::vector<Triangle> triangles_;
+  mutable std::vector<TriangleDistance> distances_;  // of those that are not told apart by their boxes
+  std::vector<std::uint32_t> numbers_;               // of all
+  std::vector<Plane> planes_;                        // of those that were asked for it
+  std::vector<std::uint32_t> lists_;                 // those in use, then those of parts that are being looked at
 };
 
 /// Segments that are to cover one.

@@ -134,17 +134,21 @@ bool is_near_given(const ChangingSurface& s, const SurfaceChange& change, double
     classes.push_back(s.given.triangles()[g].klass);
   });
   // One point that is farther from all proves a no, mostly before anything is cut.
-  std::uint32_t used = no_index;
+  std::vector<std::uint32_t> near;  // of each of those that come the given ones that may be near
+  std::vector<std::size_t> end;
   for (std::size_t k = 0; k < come.size(); ++k) {
-    const std::uint32_t klass = change.come[k].klass;
-    if (klass != used) cover.use([&](std::size_t t, const Box<3>&) { return classes[t] == klass; });
-    used = klass;
+    const Box<3> reach = cover.with_margin(Box<3>::of(come[k]));
+    const std::size_t first = near.size();
+    for (std::uint32_t t = 0; t < cover.size(); ++t)
+      if (classes[t] == change.come[k].klass && cover.box(t).meets(reach)) near.push_back(t);
+    end.push_back(near.size());
     for (const Point3& p : samples_of(come[k]))
-      if (!cover.reaches(p)) return false;
+      if (!cover.reaches(p, std::span(near).subspan(first))) return false;
   }
   for (std::size_t k = 0; k < come.size(); ++k) {
     const Box<3> box = Box<3>::of(come[k]).widened(e);
-    cover.use([&](std::size_t t, const Box<3>& own) { return classes[t] == change.come[k].klass && own.meets(box); });
+    const std::size_t first = k == 0 ? 0 : end[k - 1];
+    cover.use(std::span(near).subspan(first, end[k] - first), [&](std::uint32_t t) { return cover.box(t).meets(box); });
     if (!cover.covers(CutPolygon(come[k]), numbers::more_parts, numbers::more_parts_each)) return false;
   }
   return true;
@@ -160,24 +164,26 @@ class GivenCover {
       : s_(s), change_(change), e_(e), klass_(klass), all_(all), cover_(e) {
     for (const SurfaceFace& f : change.come)
       if (f.klass == klass) cover_.add(sorted(triangle_after(s.complex, change, f)));
-    come_ = cover_.size();
+    come_ = static_cast<std::uint32_t>(cover_.size());
   }
 
   bool covers(const std::array<Point3, 3>& given) {
-    cover_.use_between(0, come_);
-    if (cover_.has_one_near(given)) return true;
+    if (cover_.has_one_near(given, cover_.between(0, come_))) return true;
     find_staying();
-    cover_.use_between(come_, cover_.size());
-    if (cover_.has_one_near(given)) return true;
+    const auto come = cover_.between(0, come_), staying = cover_.between(come_, cover_.size());
+    if (cover_.has_one_near(given, staying)) return true;
     CutPolygon part(given);
     if (!cut_to_box(part, all_)) return false;
     const auto corners = part.all();
     if (corners.empty()) return true;
-    cover_.use_between(0, come_);
-    const bool may_come_alone = std::all_of(corners.begin(), corners.end(), [&](const Point3& p) { return cover_.reaches(p); });
-    if (may_come_alone && cover_.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
+    const bool may_come_alone = std::all_of(corners.begin(), corners.end(),
+                                            [&](const Point3& p) { return cover_.reaches(p, come); });
+    if (may_come_alone) {
+      cover_.use(come, [](std::uint32_t) { return true; });
+      if (cover_.covers(part, numbers::first_parts, numbers::first_parts_each)) return true;
+    }
     const Box<3> box = Box<3>::of(corners).widened(e_);
-    cover_.use([&](std::size_t t, const Box<3>& own) { return t < come_ || own.meets(box); });
+    cover_.use(cover_.between(0, cover_.size()), [&](std::uint32_t t) { return t < come_ || cover_.box(t).meets(box); });
     return cover_.covers(part, numbers::more_parts, numbers::more_parts_each);
   }
 
@@ -197,7 +203,7 @@ class GivenCover {
   std::uint32_t klass_;
   Box<3> all_;
   Cover cover_;  // faces that come, then, once they are looked for, those that stay
-  std::size_t come_ = 0;
+  std::uint32_t come_ = 0;
   bool has_staying_ = false;
 };
 

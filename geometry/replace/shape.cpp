@@ -82,10 +82,17 @@ Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vert
     sector.between_kept = view.is_kept(vertex, first.a) && view.is_kept(vertex, first.b);
     return sector;
   }
+  constexpr std::size_t usual = 8;
+  sector.faces.reserve(usual);
   sector.faces.push_back(face);
-  std::vector<std::array<double, 2>> before, behind;
+  std::vector<std::array<double, 2>> all;
+  all.reserve(usual);
   int kept_ends = 0;
   for (const std::uint32_t start : {first.a, first.b}) {
+    if (start == first.b) {
+      std::reverse(all.begin(), all.end());
+      all.push_back(turn_at(view.at(vertex), view.at(first.a), view.at(first.b)));
+    }
     std::uint32_t f = face, edge = start;
     while (true) {
       if (view.is_kept(vertex, edge)) {
@@ -99,17 +106,13 @@ Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vert
       }
       if (g == no_index || view.face(g).group != group) break;
       const Corner c = corner_at(view.face(g), vertex);
-      (start == first.a ? before : behind).push_back(turn_at(view.at(vertex), view.at(c.a), view.at(c.b)));
+      all.push_back(turn_at(view.at(vertex), view.at(c.a), view.at(c.b)));
       sector.faces.push_back(g);
       edge = c.a == edge ? c.b : c.a;
       f = g;
     }
   }
   AngleSum sum;  // from the same end, whichever face was asked for
-  const auto own = turn_at(view.at(vertex), view.at(first.a), view.at(first.b));
-  std::vector<std::array<double, 2>> all(before.rbegin(), before.rend());
-  all.push_back(own);
-  all.insert(all.end(), behind.begin(), behind.end());
   if (all.back() < all.front()) std::reverse(all.begin(), all.end());
   for (const auto& turn : all) sum.add(turn);
   sector.angle = sum.value();

@@ -79,30 +79,44 @@ inline ClosestPoints<3> closest_to_triangle(const Point3& x, const Point3& a, co
   return {{x, foot}, height * height};  // whose root is `height` as it is
 }
 
-/// closest_to_triangle(x, a, b, c).square to the last bit, without the points.
+/// A triangle abc, for the distances of many points from it.
 class TriangleDistance {
  public:
-  TriangleDistance(const Point3& x, const Point3& a, const Point3& b, const Point3& c)
-      : from_{difference(x, a), difference(x, b), difference(x, c)},
-        along_{difference(b, a), difference(c, b), difference(a, c)} {
-    const auto normal = cross(along_[0], difference(c, a));
-    const double area = dot(normal, normal);
-    if (!(area > 0)) return;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (!(dot(cross(along_[i], from_[i]), normal) >= 0)) return;
-    const double height = dot(from_[0], normal) / std::sqrt(area);
-    inside_ = height * height;
+  TriangleDistance(const Point3& a, const Point3& b, const Point3& c)
+      : corners_{a, b, c}, along_{difference(b, a), difference(c, b), difference(a, c)} {
+    for (std::size_t i = 0; i < 3; ++i) lengths_[i] = dot(along_[i], along_[i]);
+    normal_ = cross(along_[0], difference(c, a));
+    area_ = dot(normal_, normal_);
+    root_ = std::sqrt(area_);
   }
-  double square() const { return std::min({to_edge(0), to_edge(1), to_edge(2), inside_}); }
+  /// closest_to_triangle(x, a, b, c).square to the last bit.
+  double square(const Point3& x) const {
+    const Froms from = from_corners(x);
+    return std::min({to_edge(from, 0), to_edge(from, 1), to_edge(from, 2), to_inside(from)});
+  }
   /// Is it at most this? The first part that is as near says so.
-  bool is_within(double square) const {
-    return inside_ <= square || to_edge(0) <= square || to_edge(1) <= square || to_edge(2) <= square;
+  bool is_within(const Point3& x, double square) const {
+    const Froms from = from_corners(x);
+    return to_inside(from) <= square || to_edge(from, 0) <= square || to_edge(from, 1) <= square || to_edge(from, 2) <= square;
   }
 
  private:
-  double to_edge(std::size_t i) const {
-    const auto &from = from_[i], &along = along_[i];
-    const double length = dot(along, along), t = std::clamp(length > 0 ? dot(from, along) / length : 0.0, 0.0, 1.0);
+  using Froms = std::array<Vector<3>, 3>;
+  Froms from_corners(const Point3& x) const {
+    return {difference(x, corners_[0]), difference(x, corners_[1]), difference(x, corners_[2])};
+  }
+  /// Infinite where the foot is not inside.
+  double to_inside(const Froms& from) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (!(area_ > 0)) return infinite;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(dot(cross(along_[i], from[i]), normal_) >= 0)) return infinite;
+    const double height = dot(from[0], normal_) / root_;
+    return height * height;
+  }
+  double to_edge(const Froms& froms, std::size_t i) const {
+    const auto &from = froms[i], &along = along_[i];
+    const double t = std::clamp(lengths_[i] > 0 ? dot(from, along) / lengths_[i] : 0.0, 0.0, 1.0);
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double off = from[k] - t * along[k];
@@ -111,14 +125,12 @@ class TriangleDistance {
     return square;
   }
 
-  std::array<Vector<3>, 3> from_, along_;  // of x from each corner, of the next corner from each
-  double inside_ = std::numeric_limits<double>::infinity();
+  std::array<Point3, 3> corners_;
+  std::array<Vector<3>, 3> along_;  // from each corner to the next
+  std::array<double, 3> lengths_;   // of these, squared
+  Vector<3> normal_;
+  double area_, root_;  // of the parallelogram: squared, and not
 };
-/// Is closest_to_triangle(x, a, b, c).square at most this?
-inline bool is_near_triangle(const Point3& x, const Point3& a, const Point3& b, const Point3& c, double square) {
-  return TriangleDistance(x, a, b, c).is_within(square);
-}
-
 /// Of an edge (2D) or a triangle (3D).
 template <int D>
 ClosestPoints<D> closest_to_simplex(const Point<D>& x, const std::array<Point<D>, D>& s) {
