@@ -264,14 +264,24 @@ class Subtraction {
   Subtraction(const std::vector<CoveringTriangle>& others, double rounding) : others_(others), rounding_(rounding) {}
 
   // In halves, as long as each has at most three fourths of the others: so cuts end, and a place at which many overlap, as the
-  // tip of a fan, is looked at in one piece.
+  // tip of a fan, is looked at in one piece. Where most of the others lie close together, as in a graded mesh, the middle of the
+  // polygon has them all on one side, and a line through theirs divides them.
   void run(const FlatPolygon& polygon, const std::vector<std::uint32_t>& list) {
     if (is_thin(polygon)) return;
     constexpr std::size_t few = 24;  // the rest of so many is found as fast without a cut
     if (list.size() <= few) return subtract(polygon, list);
     const auto box = detail::Box<2>::of(polygon);
     const int axis = box.high[0] - box.low[0] >= box.high[1] - box.low[1] ? 0 : 1;
-    const double middle = box.low[axis] + (box.high[axis] - box.low[axis]) / 2;
+    if (divide(polygon, list, axis, box.low[axis] + (box.high[axis] - box.low[axis]) / 2) ||
+        divide(polygon, list, axis, median(list, axis)) || divide(polygon, list, 1 - axis, median(list, 1 - axis)))
+      return;
+    subtract(polygon, list);
+  }
+  std::vector<FlatPolygon> result;
+
+ private:
+  /// @returns false if the line has too many of the others on one side or on both
+  bool divide(const FlatPolygon& polygon, const std::vector<std::uint32_t>& list, int axis, double middle) {
     std::array<FlatPolygon, 2> halves;
     std::array<std::vector<std::uint32_t>, 2> near;
     for (const int k : {0, 1}) {
@@ -280,13 +290,19 @@ class Subtraction {
       for (const std::uint32_t i : list)
         if (others_[i].box().meets(half_box) && !others_[i].misses(halves[k])) near[k].push_back(i);
     }
-    if (4 * std::max(near[0].size(), near[1].size()) > 3 * list.size()) return subtract(polygon, list);
+    if (4 * std::max(near[0].size(), near[1].size()) > 3 * list.size()) return false;
     for (const int k : {0, 1})
       if (halves[k].size() >= 3) run(halves[k], near[k]);
+    return true;
   }
-  std::vector<FlatPolygon> result;
-
- private:
+  double median(const std::vector<std::uint32_t>& list, int axis) const {
+    std::vector<double> middles;
+    middles.reserve(list.size());
+    for (const std::uint32_t i : list) middles.push_back(others_[i].box().low[axis] / 2 + others_[i].box().high[axis] / 2);
+    const auto half = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
+    std::nth_element(middles.begin(), half, middles.end());
+    return *half;
+  }
   bool is_thin(const FlatPolygon& polygon) const { return area(polygon) <= rounding_ * diameter(polygon); }
 
   static FlatPolygon cut(const FlatPolygon& polygon, int axis, double middle, double sense) {
