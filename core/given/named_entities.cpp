@@ -34,23 +34,20 @@ NamedEntities<D>::NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& m
 
 template <int D>
 const NamedEntity<D>* NamedEntities<D>::find(const GivenEntity& name) {
-  const auto known = [&](auto& entities, const auto& key, const auto& make) -> const NamedEntity<D>* {
-    const auto [at, fresh] = entities.try_emplace(key);
-    if (fresh) make(at->second);
-    return at->second ? &*at->second : nullptr;
-  };
-  if (name.kind == EntityKind::segment)
-    return known(segments_, std::array{std::min(name.ends[0], name.ends[1]), std::max(name.ends[0], name.ends[1])},
-                 [&](auto& out) {
-                   make_segment(name.ends, out.emplace());
-                   if (out->ends[0] == out->ends[1] || !is_covered(*out)) out.reset();
-                 });
-  if (D == 3 && name.kind == EntityKind::facet)
-    return known(facets_, name.facet, [&](auto& out) {
-      make_facet(name.facet, out.emplace());
-      if (out->triangles.empty()) out.reset();
-    });
-  return nullptr;
+  if (name.kind == EntityKind::segment) {
+    const auto [at, fresh] = segments_.try_emplace(
+        std::array{std::min(name.ends[0], name.ends[1]), std::max(name.ends[0], name.ends[1])});
+    auto& out = at->second;
+    if (fresh) {
+      make_segment(name.ends, out.emplace());
+      if (out->ends[0] == out->ends[1] || !is_covered(*out)) out.reset();
+    }
+    return out ? &*out : nullptr;
+  }
+  if (D != 3 || name.kind != EntityKind::facet) return nullptr;
+  const auto [at, fresh] = facets_.try_emplace(name.facet, nullptr);
+  if (fresh) at->second = make_facet(name.facet);
+  return at->second;
 }
 
 template <int D>
@@ -142,45 +139,67 @@ void NamedEntities<D>::add_triangle(const std::array<std::uint32_t, 3>& t, Named
   }
 }
 
+/// Null if it has no triangles.
 template <int D>
-void NamedEntities<D>::make_facet(std::uint32_t facet, NamedEntity<D>& out) {
+const NamedEntity<D>* NamedEntities<D>::make_facet(std::uint32_t facet) {
   if constexpr (D == 3) {
     join_flat_parts();
     const auto triangles = input_.triangles();
     const auto own = detail::equal_rows(std::span<const GivenTriangle>(triangles), facet, &GivenTriangle::facet);
     const auto first = static_cast<std::uint32_t>(own.data() - triangles.data());
     const auto last = first + static_cast<std::uint32_t>(own.size());
-    for (std::uint32_t t = first; t < last; ++t) out.parts.push_back(flat_->find(t));
-    detail::make_set(out.parts);
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t t = first; t < last; ++t) parts.push_back(flat_->find(t));
+    detail::make_set(parts);
     for (std::uint32_t t = first; t < last; ++t)  // so that numbers of points that are in no mesh are known
       for (const std::uint32_t p : triangles[t].points)
         if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
-    std::vector<std::uint32_t> members;
-    for (const std::uint32_t part : out.parts)
-      for (auto at = std::ranges::lower_bound(by_flat_, std::pair{part, 0u}); at != by_flat_.end() && at->first == part; ++at) {
-        members.push_back(at->second);
-        if (at->second >= triangles.size()) continue;
-        for (const std::uint32_t p : triangles[at->second].points)
-          if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
-      }
-    fill_facet(members, out);
-    if (own_) {
-      out.off = std::max(out.off, own_->thickness[own_->sets.find(facet)]);
-      return;
+    const NamedEntity<D>& all = all_of(parts);
+    if (all.triangles.empty()) return nullptr;
+    std::vector<const NamedEntity<D>*> faces;
+    if (!own_) faces = faces_of(members_alone(first, last));
+    if (own_ || (all.is_one_plane && !all.is_loose)) {
+      const auto [at, fresh] = plates_.try_emplace({parts, faces}, all);
+      if (!fresh) return &at->second;
+      at->second.faces = std::move(faces);
+      if (own_) at->second.off = std::max(all.off, own_->thickness[own_->sets.find(facet)]);
+      return &at->second;
     }
-    out.faces = faces_of(members_alone(first, last));
-    out.is_one_plane = is_in_one_plane(out);
-    if (out.triangles.empty() || (out.is_one_plane && !out.is_loose)) return;
-    const std::vector<std::uint32_t> all = members_alone(first, last);
-    for (const std::size_t count : {all.size(), static_cast<std::size_t>(last - first)}) {
+    NamedEntity<D>& out = bent_.try_emplace(facet, all).first->second;
+    out.faces = std::move(faces);
+    const std::vector<std::uint32_t> members = members_alone(first, last);
+    for (const std::size_t count : {members.size(), static_cast<std::size_t>(last - first)}) {
       NamedEntity<D>& alone = out.alone.emplace_back();
       alone.parts = {static_cast<std::uint32_t>(by_flat_.size()) + facet};  // of no set
-      fill_facet(std::span(all).first(count), alone);
+      fill_facet(std::span(members).first(count), alone);
     }
     // The corners of given triangles are where they are: what may be off is what was put onto them.
     out.alone.back().off = 0;
     out.alone.back().is_loose = false;
+    return &out;
   }
+  return nullptr;
+}
+
+/// All that hangs together with these sets, made once.
+template <int D>
+const NamedEntity<D>& NamedEntities<D>::all_of(const std::vector<std::uint32_t>& parts) {
+  const auto [at, fresh] = groups_.try_emplace(parts);
+  NamedEntity<D>& out = at->second;
+  if (!fresh) return out;
+  const auto triangles = input_.triangles();
+  std::vector<std::uint32_t> members;
+  for (const std::uint32_t part : parts)
+    for (auto row = std::ranges::lower_bound(by_flat_, std::pair{part, 0u}); row != by_flat_.end() && row->first == part; ++row) {
+      members.push_back(row->second);
+      if (row->second >= triangles.size()) continue;
+      for (const std::uint32_t p : triangles[row->second].points)
+        if (match_.vertex_of_point[p] == none) number_of(input_.point(p));
+    }
+  out.parts = parts;
+  fill_facet(members, out);
+  if (!own_) out.is_one_plane = is_in_one_plane(out);
+  return out;
 }
 
 /// May the subfacet lie in the plane of the given triangle?
@@ -236,7 +255,7 @@ void NamedEntities<D>::fill_facet(std::span<const std::uint32_t> members, NamedE
     std::sort(out.edges.begin(), out.edges.end());
     std::sort(out.at.begin(), out.at.end());
     detail::make_set(out.points);
-    out.tree = std::make_unique<detail::BoxTree<3>>(boxes);
+    out.tree = std::make_shared<const detail::BoxTree<3>>(boxes);
   }
 }
 

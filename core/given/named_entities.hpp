@@ -37,7 +37,7 @@ struct NamedEntity {
   std::vector<AtEdge> edges;                                ///< of these, or subsegments of a segment, sorted
   std::vector<std::pair<std::uint32_t, std::uint32_t>> at;  ///< a point, and a triangle with it, sorted
   std::vector<std::uint32_t> points;                        ///< all, sorted
-  std::unique_ptr<detail::BoxTree<D>> tree;                 ///< of the triangles
+  std::shared_ptr<const detail::BoxTree<D>> tree;           ///< of the triangles
   bool is_one_plane = true;                                 ///< all of a facet is within the tolerance of one plane
   /// Of a facet that is not in one plane, or loose: what was given of it by itself, with the subfacets that lie on that, and
   /// without. Needles may lie in the planes on both of their sides, so that nothing says which of these are one with it; and
@@ -91,7 +91,8 @@ class NamedEntities {
   std::uint32_t known_number(const Point<D>& x) const;  ///< none, if it has none yet
   void make_segment(std::array<std::array<double, 3>, 2> of, NamedEntity<D>& out);
   bool is_covered(const NamedEntity<D>& segment) const;
-  void make_facet(std::uint32_t facet, NamedEntity<D>& out);
+  const NamedEntity<D>* make_facet(std::uint32_t facet);
+  const NamedEntity<D>& all_of(const std::vector<std::uint32_t>& parts);
   void fill_facet(std::span<const std::uint32_t> members, NamedEntity<D>& out) const;
   bool is_in_one_plane(const NamedEntity<D>& facet) const;
   std::array<Point<D>, 3> largest_triangle(const NamedEntity<D>& facet) const;
@@ -111,7 +112,11 @@ class NamedEntities {
   std::vector<Point<D>> further_points_;
   std::map<std::array<double, D>, std::uint32_t> further_numbers_;
   std::map<std::array<std::array<double, 3>, 2>, std::optional<NamedEntity<D>>> segments_;
-  std::map<std::uint32_t, std::optional<NamedEntity<D>>> facets_;
+  std::map<std::uint32_t, const NamedEntity<D>*> facets_;
+  /// What hangs together, by its sets. Facets of it that are the same, by these and by the faces, are one entity.
+  std::map<std::vector<std::uint32_t>, NamedEntity<D>> groups_;
+  std::map<std::pair<std::vector<std::uint32_t>, std::vector<const NamedEntity<D>*>>, NamedEntity<D>> plates_;
+  std::map<std::uint32_t, NamedEntity<D>> bent_;  ///< facets that are not in one plane, or loose: each by itself
   std::unique_ptr<detail::BoxTree<D>> subsegments_;
   std::optional<OwnFacets> own_;
   std::optional<detail::DisjointSets> flat_;                      ///< of given triangles, then of subfacets
