@@ -69,6 +69,7 @@ void set_surface(Report& report, const SurfaceStep& step) {
                                              {"triangles", r.triangles},
                                              {"counted_corners_below_14.5", r.sharp_triangles},
                                              {"smallest_counted_corner", r.smallest_corner},
+                                             {"heights_below_14.5", r.sharp_heights},
                                              {"creases", r.creases},
                                              {"corners", r.corners},
                                              {"flat_groups", r.flat_groups},
@@ -91,6 +92,9 @@ void print_surface(const SurfaceStep& step) {
                            format(", within %.4g; corners below 14.5 degrees: %llu, were %llu (%.3f s)", r.tolerance,
                                   static_cast<unsigned long long>(r.sharp_triangles[1]),
                                   static_cast<unsigned long long>(r.sharp_triangles[0]), r.seconds));
+  if (r.sharp_triangles[0] > 0)
+    print_row("", format("heights of those that were: half of them up to %.4g, the largest %.4g", r.sharp_heights[0],
+                         r.sharp_heights[1]));
 }
 
 }  // namespace pgdr::tool

@@ -24,8 +24,8 @@ struct SurfaceOptions {
   double tolerance = 0;       ///< E, an absolute length in the units of the coordinates: most that one surface is from the other
   double feature_angle = 40;  ///< degrees: facets of one marker whose normals differ by more meet at a crease; 180: none do
   double wanted_corner = 25;  ///< degrees: angles of facets that are smaller are made larger where that is possible
-  /// The size that a mesh is to have here: no edge is made longer than twice the size at its ends. Empty: E alone limits. Called
-  /// from the calling thread, on which all is done then.
+  /// The size that a mesh is to have here: no edge is made longer than twice the size at its ends. Empty: E alone limits. Several
+  /// threads may call it at once, as they do a SizingField: it has to be the same for the same point whoever asks.
   std::function<double(const Point3&)> size;
   std::stop_token stop;  ///< ends the step after any change, with a valid surface
 };
@@ -38,6 +38,7 @@ struct SurfaceReport {
   std::array<std::uint64_t, 2> triangles{};        ///< of the surface as given, and of the other; likewise below
   std::array<std::uint64_t, 2> sharp_triangles{};  ///< with a counted corner below 14.5 degrees
   std::array<double, 2> smallest_corner{};         ///< the least counted corner, in degrees; 180: none is counted
+  std::array<double, 2> sharp_heights{};           ///< least heights of the sharp triangles as given: median, largest; 0: none
   std::array<std::uint64_t, 2> flat_groups{};      ///< of two triangles or more
   std::uint64_t creases = 0;                       ///< edges of creases as given
   std::uint64_t corners = 0;                       ///< vertices that are kept in place

@@ -106,7 +106,11 @@ class AheadQueue {
     changer_.bulk().parts(front_.size() - left, [&](std::size_t k) {
       Entry& e = front_[left + k];
       e.trial.ahead_of = changer_.changes();
-      e.is_tried = try_it(e.candidate, e.trial);
+      try {
+        e.is_tried = try_it(e.candidate, e.trial);
+      } catch (...) {  // of the caller's sizes: thrown again when it is tried in its turn, if that comes
+        e.is_tried = false;
+      }
     });
     std::inplace_merge(front_.begin(), front_.begin() + static_cast<std::ptrdiff_t>(left), front_.end(),
                        [](const Entry& a, const Entry& b) { return b.candidate < a.candidate; });

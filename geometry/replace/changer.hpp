@@ -59,8 +59,8 @@ class Changer {
   /// one?
   bool settle(const Trial& trial);
 
-  /// May trials be made ahead, by several threads? Not with sizes, which are asked for on the calling thread alone.
-  bool looks_ahead() const { return !size_ && bulk_.is_parallel(); }
+  /// May trials be made ahead, by several threads?
+  bool looks_ahead() const { return bulk_.is_parallel(); }
   const Bulk& bulk() const { return bulk_; }
   /// Forgets where changes were made before.
   void begin_changes() { changed_.clear(); }

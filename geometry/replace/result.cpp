@@ -17,9 +17,16 @@ namespace {
 /// Triangles with such an angle are too sharp for the usual bound of 15 degrees on dihedral angles.
 constexpr double sharp_degrees = 14.5;
 
+/// Twice its area.
 double area_of(const Point3& a, const Point3& b, const Point3& c) {
   const auto n = cross(difference(b, a), difference(c, a));
   return std::sqrt(dot(n, n));
+}
+
+double least_height(const std::array<Point3, 3>& t) {
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, distance(t[i], t[(i + 1) % 3]));
+  return longest > 0 ? area_of(t[0], t[1], t[2]) / longest : 0;
 }
 
 }  // namespace
@@ -36,16 +43,20 @@ void ResultMaker::measure(SurfaceReport& report, std::size_t when) const {
   const HalfTangent sharp = half_tangent(sharp_degrees);
   HalfTangent least = wide_corner;
   std::set<std::uint32_t> groups;
+  std::vector<double> heights;
   for (std::uint32_t f = 0; f < c.faces.size(); ++f) {
     if (!c.faces[f].alive) continue;
     const HalfTangent corner = least_corner(c, f);
     least = std::min(least, corner);
     report.sharp_triangles[when] += corner < sharp;
+    if (when == 0 && corner < sharp) heights.push_back(least_height(c.triangle(f)));
     ++report.triangles[when];
     if (c.faces[f].group != no_index) groups.insert(c.faces[f].group);
   }
   report.smallest_corner[when] = degrees_of(least);
   report.flat_groups[when] = groups.size();
+  std::sort(heights.begin(), heights.end());
+  if (!heights.empty()) report.sharp_heights = {heights[heights.size() / 2], heights.back()};
   report.corners = 0;
   for (std::uint32_t v = 0; v < c.points.size(); ++v)
     report.corners += c.order[v] == VertexOrder::fixed && !c.faces_at[v].empty();

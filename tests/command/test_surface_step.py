@@ -80,6 +80,11 @@ class SurfaceStep(Case):
         for flags in ((), ("--size", "0.12"), ("--size", "0.12+z*z")):
             self.mesh(model, "--surface-tolerance", "5%", "--yes-coarse", *flags, "--report", self.report, expect=None)
             triangles.append(self.json()["surface_tolerance"]["triangles"][1])
+        made = []
+        for threads in (1, 2):
+            self.mesh(model, "--surface-tolerance", "5%", "--yes-coarse", "--size", "0.12+z*z", "--threads", threads, expect=None)
+            made.append(self.output.read_bytes())
+        self.assertEqual(*made)
         self.assertLess(2 * triangles[0], triangles[1])
         self.assertLess(triangles[2], triangles[1])
 
@@ -98,7 +103,11 @@ class SurfaceStep(Case):
     def test_info_says_what_it_would_do(self):
         done = self.pgdr("info", ANCHOR, "--surface-tolerance", "0.1%", "--report", self.report, expect=0)
         self.assertIn("in place of 1050", done.stdout)
-        self.assertEqual(self.json()["surface_tolerance"]["triangles"][0], 1050)
+        step = self.json()["surface_tolerance"]
+        self.assertEqual(step["triangles"][0], 1050)
+        self.assertIn("heights of those", done.stdout)
+        median, largest = step["heights_below_14.5"]
+        self.assertTrue(0 < median < largest < 0.1, (median, largest))
         self.assertGreater(min(self.json()["surface_estimated_cells"].values()), 0)
 
     def test_what_is_refused(self):

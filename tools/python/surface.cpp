@@ -35,6 +35,7 @@ py::dict report_of(const SurfaceReport& r) {
   out["triangles"] = r.triangles;
   out["counted_corners_below_14.5"] = r.sharp_triangles;
   out["smallest_counted_corner"] = r.smallest_corner;
+  out["heights_below_14.5"] = r.sharp_heights;
   out["creases"] = r.creases;
   out["corners"] = r.corners;
   out["flat_groups"] = r.flat_groups;
