@@ -176,6 +176,7 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   ReportedBounds reported;
   if (!a.reasons.empty()) reported = read_bounds(a.reasons);
   Bounds<D> bounds = resolve<D>(a.bounds, reported.radius_edge.value_or(unbounded));
+  const StatedPeriods stated = periods_of<D>(file);
   const OutputMesh<D> mesh = file.read_mesh<D>();
   report.set("warnings", to_json(file.warnings()));
   if (!a.quiet) print_warnings(file.warnings());
@@ -222,7 +223,8 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
   set_surface(a, reported, options);
   const std::vector<std::string>& periodic = a.periodic.empty() ? reported.periodic : a.periodic;
   const double tolerance = options.tolerance.value_or(plc ? tolerance_of(*plc) : rounding_of(mesh));
-  const PeriodicCheck in_step = check_periodic(mesh, periodic_sides<D>(periodic, plc ? plc->names : mesh.names), 2 * tolerance);
+  const PeriodicCheck in_step = check_periodic(mesh, periodic_sides<D>(periodic, plc ? plc->names : mesh.names), stated,
+                                               2 * tolerance);
   for (const PeriodicPairs& p : in_step.pairs) options.kept_sides.insert(options.kept_sides.end(), {p.from, p.to});
   CheckReport verdict = pgdr::check(mesh, options);
   std::optional<BodyCheck> bodies;
@@ -235,7 +237,8 @@ int check_as(const CheckArguments& a, InputFile& file, Report& report) {
     quality = summarize_quality(mesh);
   if (a.list_not_delaunay && quality) list_not_delaunay(mesh, a.quiet, report);
   if (in_step.failure) report.add_error(*in_step.failure);
-  if (!periodic.empty()) in_step.failure ? report.set("periodic", nullptr) : set_periodic(report, in_step.pairs);
+  if (in_step.failure || !in_step.pairs.empty())
+    in_step.failure ? report.set("periodic", nullptr) : set_periodic(report, in_step.pairs);
   const std::size_t unused = unused_points(mesh).size();
   fill(report, mesh, bounds, quality, verdict, options.delaunay, unused);
   if (options.surface_tolerance)

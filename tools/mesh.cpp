@@ -50,6 +50,12 @@ void require_ranks(const MeshArguments& a, const Ranks& ranks) {
     throw UsageError({.code = Errc::bad_option, .message = "--voronoi is for one process"});
 }
 
+void refuse_with_periodic(const SurfaceArguments& surface) {
+  if (!surface.tolerance) return;
+  throw UsageError({.code = Errc::bad_option,
+                    .message = "--surface-tolerance is not for cells that repeat: it and --periodic exclude each other"});
+}
+
 /// One run: read, mesh, write, print. Each step puts into the report what it knows.
 template <int D>
 class MeshRun {
@@ -140,6 +146,7 @@ class MeshRun {
 
   Plc<D> read_old_mesh() {
     old_.emplace(input_.only(), !a_.remesh->no_fields || !a_.bounds.size_field.empty());
+    if (!old_->sides().empty()) refuse_with_periodic(a_.surface);
     bounds_.size = smallest<D>({bounds_.size, old_->sizes(a_.bounds), old_->sizes_of_cells(a_.remesh->cell_bounds)});
     options_.size = bounds_.size;
     report_.set("remeshed", true);
@@ -202,18 +209,20 @@ class MeshRun {
 
   /// Divides sides that are to correspond.
   void make_sides() {
-    if (a_.periodic.empty()) return;
+    const bool of_file = a_.periodic.empty() && old_;
+    const std::vector<PeriodicSides<D>> sides = of_file ? old_->sides() : periodic_sides<D>(a_.periodic, plc_.names);
+    if (sides.empty()) return;
     const Stopwatch watch;
     if constexpr (D == 3) {  // facets have other numbers then
       if (options_.prepared) options_.prepared(Domain<3>(plc_, options_.stop));
       options_.prepared = {};
     }
-    periodic_ = make_periodic(plc_, periodic_sides<D>(a_.periodic, plc_.names), options_);
+    periodic_ = make_periodic(plc_, sides, options_);
     plc_ = periodic_->plc;
     sides_ = periodic_->sides;
     if (periodic_->keep_boundary) options_.kept_markers = periodic_->kept_markers;
     options_.keep_boundary = options_.keep_boundary || periodic_->keep_boundary;
-    report_.set("periodic_sides", a_.periodic);
+    report_.set("periodic_sides", of_file ? flags_of(sides) : a_.periodic);
     report_.set("periodic_rounds", periodic_->rounds);
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, options_.time_limit->count() - watch.seconds()));
@@ -397,8 +406,7 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   require_3d(arguments.surface, dimension);
   if (!arguments.periodic.empty() && ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--periodic is for one process"});
-  if (!arguments.periodic.empty() && arguments.surface.tolerance)
-    throw UsageError({.code = Errc::bad_option, .message = "--periodic and --surface-tolerance exclude each other"});
+  if (!arguments.periodic.empty()) refuse_with_periodic(arguments.surface);
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bounds.hpp"
+#include "periodic.hpp"
 #include "pgdr/error.hpp"
 #include "pgdr/field_io.hpp"
 #include "pgdr/transfer.hpp"
@@ -33,7 +34,14 @@ std::set<int> markers_of(const OutputMesh<D>& mesh, const std::string& text) {
 template <int D>
 OldMesh<D>::OldMesh(InputFile& file, bool with_fields) {
   if (with_fields) fields_ = file.read_fields();
+  const StatedPeriods stated = periods_of<D>(file);
   mesh_ = file.read_mesh<D>();
+  if (stated.pairs.empty()) return;
+  Plc<D> points;
+  points.points = mesh_.points;
+  sides_ = stated_sides<D>(stated);
+  if (const auto check = check_periodic(mesh_, sides_, stated, 2 * rounding_tolerance(points)); check.failure)
+    throw UsageError(*check.failure);
 }
 
 /// A vertex has its own marker, and those of the subsegments and subfacets at it.

@@ -18,10 +18,13 @@ namespace pgdr::tool {
 template <int D>
 class OldMesh {
  public:
-  /// Reads the mesh, and its fields. @throws what read_mesh and read_fields throw
+  /// Reads the mesh, and its fields. @throws what read_mesh and read_fields throw; UsageError bad_option: its sides do not
+  /// correspond as the file says
   OldMesh(InputFile& file, bool with_fields);
 
   const OutputMesh<D>& mesh() const { return mesh_; }
+  /// What the file says of sides that correspond, if it does; verified.
+  const std::vector<PeriodicSides<D>>& sides() const { return sides_; }
   /// Of each vertex, whether it has one of these markers, which may be names; empty: none was asked for.
   /// @throws UsageError for what is neither, and for a marker that no vertex has
   std::vector<std::uint8_t> required(const std::vector<std::string>& markers) const;
@@ -44,6 +47,7 @@ class OldMesh {
 
   OutputMesh<D> mesh_;
   MeshFields fields_;
+  std::vector<PeriodicSides<D>> sides_;
   std::vector<std::uint32_t> facet_of_input_;
 };
 

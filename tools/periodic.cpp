@@ -73,6 +73,24 @@ std::vector<PeriodicSides<D>> periodic_sides(const std::vector<std::string>& fla
   return all;
 }
 
+template <int D>
+std::vector<std::string> flags_of(const std::vector<PeriodicSides<D>>& sides) {
+  std::vector<std::string> flags;
+  for (const PeriodicSides<D>& side : sides) {
+    std::string& flag = flags.emplace_back(std::to_string(side.from) + "=" + std::to_string(side.to));
+    for (std::size_t k = 0; side.motion && k < side.motion->size(); ++k)
+      flag += (k == 0 ? ":" : ",") + format("%.17g", (*side.motion)[k]);
+  }
+  return flags;
+}
+
+template <int D>
+StatedPeriods periods_of(InputFile& file) {
+  StatedPeriods stated = file.read_periods<D>();
+  std::erase_if(stated.pairs, [](const PeriodicPairs& p) { return p.from == p.to; });
+  return stated;
+}
+
 void set_periodic(Report& report, const std::vector<PeriodicPairs>& pairs) {
   std::vector<Json> list;
   for (const PeriodicPairs& p : pairs)
@@ -95,19 +113,29 @@ void print_periodic(const std::vector<PeriodicPairs>& pairs) {
 }
 
 template <int D>
-PeriodicCheck check_periodic(const OutputMesh<D>& mesh, const std::vector<PeriodicSides<D>>& sides, double tolerance) {
+PeriodicCheck check_periodic(const OutputMesh<D>& mesh, const std::vector<PeriodicSides<D>>& sides, const StatedPeriods& stated,
+                             double tolerance) {
   PeriodicCheck check;
   try {
     for (const PeriodicSides<D>& side : sides) check.pairs.push_back(periodic_pairs(mesh, side, tolerance));
+    std::vector<PeriodicPairs> found;
+    for (const PeriodicSides<D>& side : stated_sides<D>(stated)) found.push_back(periodic_pairs(mesh, side, tolerance));
+    require_as_stated(found, stated);
+    for (PeriodicPairs& p : found)
+      if (std::ranges::none_of(sides, [&](const auto& side) { return side.from == p.from && side.to == p.to; }))
+        check.pairs.push_back(std::move(p));
   } catch (const UsageError& e) {
     check.failure = e.diagnostic();
   }
   return check;
 }
 
-#define PGDR_INSTANTIATE(D)                                                                                \
-  template std::vector<PeriodicSides<D>> periodic_sides<D>(const std::vector<std::string>&, const Names&); \
-  template PeriodicCheck check_periodic<D>(const OutputMesh<D>&, const std::vector<PeriodicSides<D>>&, double);
+#define PGDR_INSTANTIATE(D)                                                                                                  \
+  template std::vector<PeriodicSides<D>> periodic_sides<D>(const std::vector<std::string>&, const Names&);                   \
+  template std::vector<std::string> flags_of<D>(const std::vector<PeriodicSides<D>>&);                                       \
+  template StatedPeriods periods_of<D>(InputFile&);                                                                          \
+  template PeriodicCheck check_periodic<D>(const OutputMesh<D>&, const std::vector<PeriodicSides<D>>&, const StatedPeriods&, \
+                                           double);
 PGDR_INSTANTIATE(2)
 PGDR_INSTANTIATE(3)
 #undef PGDR_INSTANTIATE

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "pgdr/io.hpp"
 #include "pgdr/names.hpp"
 #include "pgdr/periodic.hpp"
 #include "report.hpp"
@@ -20,16 +21,24 @@ bool is_periodic(const std::string& text);
 template <int D>
 std::vector<PeriodicSides<D>> periodic_sides(const std::vector<std::string>& flags, const Names& names);
 
+/// The flags that say the same.
+template <int D>
+std::vector<std::string> flags_of(const std::vector<PeriodicSides<D>>& sides);
+/// What a file says of sides that markers tell apart; others, as those of no marker, are left out.
+template <int D>
+StatedPeriods periods_of(InputFile& file);
+
 /// `periodic` of the report, and a line each.
 void set_periodic(Report& report, const std::vector<PeriodicPairs>& pairs);
 void print_periodic(const std::vector<PeriodicPairs>& pairs);
 
-/// Of a mesh: the pairs, or what is wrong.
+/// Of a mesh: the pairs, or what is wrong. Those that its file states are verified, too, and follow the others.
 struct PeriodicCheck {
   std::vector<PeriodicPairs> pairs;
   std::optional<Diagnostic> failure;
 };
 template <int D>
-PeriodicCheck check_periodic(const OutputMesh<D>& mesh, const std::vector<PeriodicSides<D>>& sides, double tolerance);
+PeriodicCheck check_periodic(const OutputMesh<D>& mesh, const std::vector<PeriodicSides<D>>& sides, const StatedPeriods& stated,
+                             double tolerance);
 
 }  // namespace pgdr::tool

@@ -16,7 +16,7 @@
 namespace pgdr::detail {
 
 /// Names of arrays of a mesh itself; a field that is called so, or begins with field_data_escape, has that before its name.
-inline constexpr std::string_view own_point_data[] = {"marker", "attributes", "GlobalPointIds"},
+inline constexpr std::string_view own_point_data[] = {"marker", "attributes", "GlobalPointIds", "periodic_of"},
                                   own_cell_data[] = {"region", "leaf", "marker", "GlobalCellIds"};
 
 template <int D>

@@ -47,6 +47,7 @@ Plc<3> read_stl(std::string_view text, const std::filesystem::path& file);
 enum class Purpose {
   input,  ///< lines are kept
   mesh,
+  periods,   ///< as mesh, with what the file says of sides that correspond
   dimension  ///< what is read may end where the dimension is known
 };
 struct Want {
@@ -62,6 +63,9 @@ std::vector<MeshField> read_vtk_fields(std::string_view text, const std::filesys
 /// @param left_out  how many nodes of cells of second order, which are no corners, the file has
 template <int D>
 OutputMesh<D> read_vtu(std::string_view text, const std::filesystem::path& file, std::size_t& left_out);
+/// What the file says of sides that correspond; nothing where it says nothing.
+template <int D>
+StatedPeriods read_vtu_periods(std::string_view text, const std::filesystem::path& file);
 /// The point data and cell data that read_vtu() has no place for.
 std::vector<MeshField> read_vtu_fields(std::string_view text, const std::filesystem::path& file);
 template <int D>
@@ -103,7 +107,10 @@ inline constexpr std::string_view point_ids = "GlobalPointIds", cell_ids = "Glob
 std::string xml_escaped(std::string_view text);
 std::string xml_unescaped(std::string_view text);
 /// Arrays of field data that are ours; of a name that is one of them, or begins so, the array has "pgdr:" before it.
-inline constexpr std::string_view own_field_data[] = {"dimension", "input_points", "piece"}, field_data_escape = "pgdr:";
+inline constexpr std::string_view periodic_sides_array = "periodic_sides", periodic_motions_array = "periodic_motions";
+inline constexpr std::string_view own_field_data[] = {"dimension", "input_points", "piece", periodic_sides_array,
+                                                      periodic_motions_array},
+                                  field_data_escape = "pgdr:";
 
 /// Comments of text formats that keep names: "# name region <label> = <name>", "# name marker <marker> = <name>".
 std::string name_comments(const Names& names);

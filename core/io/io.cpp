@@ -209,6 +209,20 @@ std::vector<MeshField> InputFile::read_fields() {
   return guarded(name_, [&] { return read(texts_->of(name_), name_); });
 }
 
+template <int D>
+StatedPeriods InputFile::read_periods() {
+  const std::string extension = lower_extension(name_);
+  if (extension == ".vtu") return guarded(name_, [&] { return detail::read_vtu_periods<D>(texts_->of(name_), name_); });
+  if (extension != ".msh") return {};
+  return guarded(name_, [&]() -> StatedPeriods {
+    const std::string_view text = texts_->of(name_);
+    if (text.find("$Periodic") == std::string_view::npos) return {};
+    detail::FileMesh mesh = detail::read_msh(text, name_, {detail::Purpose::periods, D});
+    drop_mid_sides(mesh);
+    return detail::to_periods<D>(mesh);
+  });
+}
+
 const std::vector<Diagnostic>& InputFile::warnings() const { return texts_->warnings(); }
 
 int InputFile::dimension() {
@@ -349,6 +363,8 @@ template PGDR_API Plc<2> InputFile::read_plc<2>(const ReadOptions&);
 template PGDR_API Plc<3> InputFile::read_plc<3>(const ReadOptions&);
 template PGDR_API OutputMesh<2> InputFile::read_mesh<2>();
 template PGDR_API OutputMesh<3> InputFile::read_mesh<3>();
+template PGDR_API StatedPeriods InputFile::read_periods<2>();
+template PGDR_API StatedPeriods InputFile::read_periods<3>();
 template PGDR_API Plc<2> read_plc<2>(const Path&, const ReadOptions&);
 template PGDR_API Plc<3> read_plc<3>(const Path&, const ReadOptions&);
 template PGDR_API OutputMesh<2> read_mesh<2>(const Path&);

@@ -112,6 +112,10 @@ class PGDR_API InputFile {
   /// Of a .vtu or .vtk the arrays of point data and cell data that are not ours, points first, by name, without a "pgdr:" before
   /// it; of other formats none. Ask before `read_mesh`, after which the file is read again. @throws as read_mesh
   std::vector<MeshField> read_fields();
+  /// What a .msh of version 4.1 or a .vtu of ours says of sides that correspond; of other files, and where it says nothing, none.
+  /// Points have the numbers of `read_mesh`. Ask before that, after which the file is read again. @throws as read_mesh
+  template <int D>
+  StatedPeriods read_periods();
   /// What the last read_plc() or read_mesh() left out: nodes of cells of second order, which are read by their corners.
   const std::vector<Diagnostic>& warnings() const;
 
@@ -128,7 +132,7 @@ struct WriteOptions {
   bool edges = false;        ///< X.edge has all edges: first the subsegments, which a comment counts, then the others, marker 0
   bool neighbors = false;    ///< write X.neigh, too: of each cell, in the order of its corners, the cell opposite; -1: none
   std::uint32_t pieces = 0;  ///< .pvtu: in so many files, up to most_pieces; 0: one, of a mesh on ranks one a rank
-  std::vector<PeriodicPairs> periodic = {};  ///< .msh: a section of them; .vtu: point data "periodic_of" (periodic.hpp)
+  std::vector<PeriodicPairs> periodic = {};  ///< .msh: a section of them; .vtu: "periodic_of", and the sides (periodic.hpp)
   /// 2: .msh, .vtu and .inp of second order, with a node in the middle of each edge, which is straight: tet10, tri6, line3, in
   /// the order of nodes of the format. Nodes are numbered behind all points, have no marker, and means of attributes and fields.
   /// Not with `periodic`.

@@ -38,6 +38,12 @@ struct PeriodicPairs {
   double largest_gap = 0;                            ///< most that an image is from that
 };
 
+/// What a file says of sides that correspond (InputFile::read_periods). None of it is verified.
+struct StatedPeriods {
+  std::vector<PeriodicPairs> pairs;        ///< markers, and motions where there are any; of a .msh `points`; all else 0
+  std::vector<std::uint32_t> periodic_of;  ///< of a .vtu, as periodic_of(); else empty
+};
+
 /// Of each of so many vertices the smallest that is one with it where all these are: itself, if there is no other.
 std::vector<std::uint32_t> periodic_of(const std::vector<PeriodicPairs>& pairs, std::size_t vertices);
 
@@ -62,5 +68,15 @@ Motion<D> translation_between(const std::vector<Point<D>>& from, const std::vect
 ///   vertices and where they are
 template <int D>
 PeriodicPairs periodic_pairs(const OutputMesh<D>& mesh, const PeriodicSides<D>& sides, double tolerance);
+
+/// The sides that a file names. @throws UsageError bad_option: a motion has another number of numbers than motions in D
+/// dimensions
+template <int D>
+std::vector<PeriodicSides<D>> stated_sides(const StatedPeriods& stated);
+
+/// Does a file say what is so?
+/// @param found  the pairs of all stated_sides() of its mesh
+/// @throws UsageError bad_option, with the vertices, where it pairs others
+void require_as_stated(const std::vector<PeriodicPairs>& found, const StatedPeriods& stated);
 
 }  // namespace pgdr

@@ -176,6 +176,44 @@ std::vector<std::uint32_t> periodic_of(const std::vector<PeriodicPairs>& pairs, 
   return smallest;
 }
 
+template <int D>
+std::vector<PeriodicSides<D>> stated_sides(const StatedPeriods& stated) {
+  std::vector<PeriodicSides<D>> all;
+  for (const PeriodicPairs& p : stated.pairs) {
+    PeriodicSides<D> sides{p.from, p.to, {}};
+    if (!p.motion.empty()) {
+      auto& motion = sides.motion.emplace();
+      if (p.motion.size() != motion.size())
+        refuse("a motion of periodic sides has " + std::to_string(p.motion.size()) + " numbers");
+      std::ranges::copy(p.motion, motion.begin());
+    }
+    all.push_back(std::move(sides));
+  }
+  return all;
+}
+
+void require_as_stated(const std::vector<PeriodicPairs>& found, const StatedPeriods& stated) {
+  for (std::size_t i = 0; i < stated.pairs.size() && i < found.size(); ++i) {
+    const auto &said = stated.pairs[i].points, &is = found[i].points;
+    if (said.empty() || said == is) continue;
+    const auto at = static_cast<std::size_t>(std::ranges::mismatch(said, is).in1 - said.begin());
+    const auto& [v, w] = at < said.size() ? said[at] : is[at];
+    refuse("the file pairs other vertices of the sides with markers " + std::to_string(found[i].from) + " and " +
+               std::to_string(found[i].to) + " than correspond: first vertex " + std::to_string(v) + " with " + std::to_string(w),
+           {v, w});
+  }
+  if (stated.periodic_of.empty()) return;
+  const std::vector<std::uint32_t> least = periodic_of(found, stated.periodic_of.size());
+  const auto [said, is] = std::ranges::mismatch(stated.periodic_of, least);
+  if (said == stated.periodic_of.end()) return;
+  const auto v = said - stated.periodic_of.begin();
+  refuse("the file says that vertex " + std::to_string(v) + " is one with " + std::to_string(*said) + ", and it is with " +
+             std::to_string(*is),
+         {v, *said, *is});
+}
+
+template PGDR_API std::vector<PeriodicSides<2>> stated_sides(const StatedPeriods&);
+template PGDR_API std::vector<PeriodicSides<3>> stated_sides(const StatedPeriods&);
 template PGDR_API void require_rigid<2>(const Motion<2>&);
 template PGDR_API void require_rigid<3>(const Motion<3>&);
 template PGDR_API Point2 moved<2>(const Motion<2>&, const Point2&);

@@ -177,6 +177,49 @@ class PeriodicCells(Case):
         count, = struct.unpack_from("<Q", data, at + 28 + 128)
         self.assertEqual(count, len(report["periodic"][0]["points"]))
 
+    def test_read_back(self):
+        """The files say which sides correspond: `check` verifies it from them alone, and `remesh` keeps it."""
+        model = self.file("cell.poly", periodic_cells.drawn(0).poly())
+        first = None
+        for name in ("out.msh", "out.vtu"):
+            self.output = self.folder / name
+            pairs = [p["points"] for p in self.meshed(model)["periodic"]]
+            self.assertEqual(first or pairs, pairs)
+            first = pairs
+            checked = self.pgdr("check", self.output, "--report", self.report, expect=0).stdout
+            self.assertEqual(checked.count("\nperiodic "), 3)
+            self.assertEqual([p["points"] for p in self.json()["periodic"]], pairs)
+            old, self.output = self.output, self.folder / ("other" + name[3:])
+            self.pgdr("remesh", old, "-o", self.output, "--size", 0.1, "--report", self.report, expect=0)
+            finer = self.json()
+            self.assertEqual(len(finer["periodic"]), 3)
+            self.assertGreater(len(finer["periodic"][0]["points"]), 2 * len(pairs[0]))
+            self.pgdr("check", self.output, "--input", old, "--reasons", self.report, expect=0)
+            self.assertIn("exclude each other", self.pgdr("remesh", old, "-o", self.output, "--surface-tolerance", "1%", expect=2).stderr)
+
+    def test_false_files(self):
+        """A pair that is another in the file than in the mesh."""
+        model = self.file("cell.poly", periodic_cells.drawn(0).poly())
+        self.output = self.folder / "out.msh"
+        self.meshed(model)
+        data = bytearray(self.output.read_bytes())
+        at = data.index(b"$Periodic\n") + len(b"$Periodic\n") + 28 + 128 + 8
+        data[at:at + 8], data[at + 16:at + 24] = data[at + 16:at + 24], data[at:at + 8]
+        self.output.write_bytes(data)
+        self.assertIn("the file pairs other vertices", self.pgdr("check", self.output, expect=6).stdout)
+        self.assertIn("the file pairs other vertices", self.pgdr("remesh", self.output, "-o", self.folder / "b.msh", expect=2).stderr)
+        self.output = self.folder / "out.vtu"
+        self.meshed(model)
+        data = bytearray(self.output.read_bytes())
+        offset = int(re.search(rb'Name="periodic_of"[^>]* offset="(\d+)"', data).group(1))
+        begin = data.index(b"_", data.index(b"<AppendedData")) + 1 + offset
+        count, = struct.unpack_from("<Q", data, begin)
+        of = list(struct.unpack_from(f"<{count // 8}q", data, begin + 8))
+        image = next(v for v, first in enumerate(of) if first < v)
+        struct.pack_into("<q", data, begin + 8 + 8 * image, image)
+        self.output.write_bytes(data)
+        self.assertIn("the file says that vertex", self.pgdr("check", self.output, expect=6).stdout)
+
     def test_check_by_itself(self):
         model = self.file("cell.poly", periodic_cells.drawn(1).poly())
         self.mesh(model, expect=0)

@@ -343,6 +343,10 @@ std::size_t drop_mid_sides(FileMesh& mesh) {
   keep_rows(mesh.points, 1, dropped), keep_rows(mesh.point_markers, 1, dropped);
   keep_rows(mesh.required, 1, dropped), keep_rows(mesh.point_lines, 1, dropped);
   each_element_corner(mesh, [&number](std::uint32_t& v) { v = number[v]; });
+  for (auto& link : mesh.periodic_links) {
+    std::erase_if(link.points, [&](const auto& pair) { return dropped[pair[0]] || dropped[pair[1]]; });
+    for (auto& pair : link.points) pair = {number[pair[0]], number[pair[1]]};
+  }
   mesh.input_points = std::min<std::size_t>(mesh.input_points, n);
   return dropped.size() - n;
 }
@@ -387,9 +391,38 @@ OutputMesh<D> to_output_mesh(FileMesh&& mesh) {
   return out;
 }
 
+/// Links of one pair of markers and one motion are one pair of sides.
+template <int D>
+StatedPeriods to_periods(const FileMesh& mesh) {
+  require_dimension(mesh, D);
+  StatedPeriods stated;
+  for (const auto& link : mesh.periodic_links) {
+    if (link.dimension != D - 1) continue;
+    PeriodicPairs pairs{marker_of(mesh, link.from), marker_of(mesh, link.to), {}, link.points, 0, 0, 0};
+    for (std::size_t i = 0; !link.affine.empty() && i < D; ++i) {
+      for (std::size_t k = 0; k < D; ++k) pairs.motion.push_back(link.affine[4 * i + k]);
+      pairs.motion.push_back(link.affine[4 * i + 3]);
+    }
+    const auto same = std::ranges::find_if(stated.pairs, [&](const PeriodicPairs& p) {
+      return p.from == pairs.from && p.to == pairs.to && p.motion == pairs.motion;
+    });
+    if (same == stated.pairs.end())
+      stated.pairs.push_back(std::move(pairs));
+    else
+      same->points.insert(same->points.end(), pairs.points.begin(), pairs.points.end());
+  }
+  for (PeriodicPairs& p : stated.pairs) {
+    std::ranges::sort(p.points);
+    p.points.erase(std::unique(p.points.begin(), p.points.end()), p.points.end());
+  }
+  return stated;
+}
+
 template Plc<2> to_plc<2>(FileMesh&&);
 template Plc<3> to_plc<3>(FileMesh&&);
 template OutputMesh<2> to_output_mesh<2>(FileMesh&&);
 template OutputMesh<3> to_output_mesh<3>(FileMesh&&);
+template StatedPeriods to_periods<2>(const FileMesh&);
+template StatedPeriods to_periods<3>(const FileMesh&);
 
 }  // namespace pgdr::detail

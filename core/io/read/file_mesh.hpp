@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pgdr/output_mesh.hpp"
+#include "pgdr/periodic.hpp"
 #include "pgdr/plc.hpp"
 
 namespace pgdr::detail {
@@ -48,6 +49,15 @@ struct FileMesh {
   /// Names of the labels of elements of one dimension: by dimension and label.
   std::map<std::pair<int, double>, std::string> group_names;
   std::vector<std::uint32_t> edge_lines, triangle_lines, quadrilateral_lines;
+
+  /// Two sides of which the file says that they correspond, by their labels, with a motion of 4 x 4 numbers, or none.
+  struct PeriodicLink {
+    int dimension;
+    double from, to;
+    std::vector<double> affine;
+    std::vector<std::array<std::uint32_t, 2>> points;  ///< of the one, and of the other
+  };
+  std::vector<PeriodicLink> periodic_links;
 
   /// Hexahedra, prisms and pyramids: what they are called, the line of the first, all their corners.
   std::string other_cells;
@@ -86,5 +96,9 @@ Plc<D> to_plc(FileMesh&& mesh);
 /// @throws InputError syntax (another dimension; labels that are no markers), unknown_format (cells that are no simplices)
 template <int D>
 OutputMesh<D> to_output_mesh(FileMesh&& mesh);
+
+/// What the links say, without their elements. @throws InputError syntax (another dimension; labels that are no markers)
+template <int D>
+StatedPeriods to_periods(const FileMesh& mesh);
 
 }  // namespace pgdr::detail

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,7 +29,10 @@ constexpr std::size_t int_bytes = 4, double_bytes = 8;
 class MshReader {
  public:
   MshReader(std::string_view text, const std::string& file, Want want)
-      : in_(text, file), elements_(in_, want.purpose == Purpose::input), only_dimension_(want.purpose == Purpose::dimension) {
+      : in_(text, file),
+        elements_(in_, want.purpose == Purpose::input),
+        only_dimension_(want.purpose == Purpose::dimension),
+        with_periods_(want.purpose == Purpose::periods) {
     mesh_.file = file;
   }
 
@@ -107,6 +111,9 @@ class MshReader {
         read_elements_4();
       else
         read_elements_2();
+    } else if (keyword == "$Periodic" && with_periods_ && version_ == 4 && has_nodes_) {
+      begin_data();
+      read_periodic();
     } else if (keyword == "$PartitionedEntities" || keyword == "$ParametricNodes") {
       in_.fail(Errc::unknown_format, keyword + " are not read");
     } else {
@@ -397,10 +404,45 @@ class MshReader {
     elements_.add(type, static_cast<std::uint64_t>(tag), nodes, elements_.label_of_physical(type.dimension, physical));
   }
 
+  // Sides that correspond: pairs of entities, of which the second is the master, which the motion takes to the first.
+
+  void read_periodic() {
+    constexpr Subject s{"a pair of sides"};
+    const std::size_t links = count(s, 6, 3 * int_bytes + 2 * size_bytes_);  // "1 2 1\n"
+    for (std::size_t i = 0; i < links; ++i) {
+      const std::int32_t dimension = integer(s), tag = integer(s), master = integer(s);
+      FileMesh::PeriodicLink link{
+          dimension, elements_.label_of_entity(dimension, master), elements_.label_of_entity(dimension, tag), {}, {}};
+      const std::size_t numbers = count(s, 2, double_bytes);
+      if (numbers != 0 && numbers != 16) in_.fail(Errc::syntax, "a motion of sides has " + std::to_string(numbers) + " numbers");
+      for (std::size_t k = 0; k < numbers; ++k) link.affine.push_back(number_of_motion());
+      const std::size_t pairs = count(s, 4, 2 * size_bytes_);
+      for (std::size_t k = 0; k < pairs; ++k) {
+        const std::uint32_t image = node_of_side(), node = node_of_side();
+        link.points.push_back({node, image});
+      }
+      mesh_.periodic_links.push_back(std::move(link));
+    }
+  }
+  double number_of_motion() {
+    constexpr Subject s{"a motion of sides"};
+    if (!binary_) in_.require(s);
+    const double x = binary_ ? take<double>(s) : in_.number(s);
+    if (!std::isfinite(x)) in_.fail(Errc::not_finite, "a motion of sides has a number that is not finite");
+    return x;
+  }
+  std::uint32_t node_of_side() {
+    const std::uint64_t tag = size({"a pair of nodes"});
+    const std::optional<std::uint32_t> node = elements_.find_node(tag);
+    if (!node)
+      in_.fail(Errc::index_out_of_range, "a pair of sides refers to node " + std::to_string(tag) + ", which does not exist");
+    return *node;
+  }
+
   LineScanner in_;
   MshElements elements_;
   FileMesh mesh_;
-  bool only_dimension_;
+  bool only_dimension_, with_periods_;
   bool decided_ = false;  ///< the dimension alone was asked for, and is known
   bool has_nodes_ = false, has_elements_ = false;
   int version_ = 4;

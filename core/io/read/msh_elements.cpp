@@ -53,14 +53,18 @@ void MshElements::set_nodes(std::vector<std::uint64_t> tags) {
   point_markers_.resize(nodes_.size());
 }
 
-std::uint32_t MshElements::node(std::uint64_t tag, std::uint64_t element) const {
+std::optional<std::uint32_t> MshElements::find_node(std::uint64_t tag) const {
   if (dense_ && !nodes_.empty()) {
     const std::uint64_t at = tag - nodes_.front();
-    if (at < nodes_.size()) return static_cast<std::uint32_t>(at);
-  } else {
-    const auto it = std::lower_bound(nodes_.begin(), nodes_.end(), tag);
-    if (it != nodes_.end() && *it == tag) return static_cast<std::uint32_t>(it - nodes_.begin());
+    return at < nodes_.size() ? std::optional(static_cast<std::uint32_t>(at)) : std::nullopt;
   }
+  const auto it = std::lower_bound(nodes_.begin(), nodes_.end(), tag);
+  if (it == nodes_.end() || *it != tag) return std::nullopt;
+  return static_cast<std::uint32_t>(it - nodes_.begin());
+}
+
+std::uint32_t MshElements::node(std::uint64_t tag, std::uint64_t element) const {
+  if (const auto found = find_node(tag)) return *found;
   const auto id = static_cast<std::int64_t>(tag);
   in_.fail(Errc::index_out_of_range,
            "element " + std::to_string(element) + " refers to node " + std::to_string(id) + ", which is not there",

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,8 @@ class MshElements {
 
   /// @param tags increasing
   void set_nodes(std::vector<std::uint64_t> tags);
+  /// The number of the node with this tag; none if there is no such. @pre set_nodes()
+  std::optional<std::uint32_t> find_node(std::uint64_t tag) const;
   /// @throws index_out_of_range
   void add(const MshType& type, std::uint64_t tag, const MshNodes& nodes, double label);
   /// Puts the elements into `mesh`, in the order of their tags.

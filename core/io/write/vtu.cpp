@@ -30,7 +30,7 @@ void write_vtu(const OutputMesh<D>& mesh, const std::vector<PeriodicPairs>& peri
                FileOutput& out) {
   VtuPart<D> part = VtuPart<D>::whole(mesh);
   part.middles = middles;
-  if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
+  part.set_periodic(periodic);
   put_file<D>(part, out);
 }
 
@@ -39,7 +39,7 @@ void write_vtu_with_fields(const OutputMesh<D>& mesh, const MeshFields& fields, 
                            const MidSides<D>* middles, FileOutput& out) {
   VtuPart<D> part = VtuPart<D>::whole(mesh);
   part.middles = middles;
-  if (!periodic.empty()) part.periodic_of = periodic_of(periodic, mesh.points.size());
+  part.set_periodic(periodic);
   part.fields = &fields;
   put_file<D>(part, out);
 }

@@ -128,11 +128,29 @@ class Layout {
     add_names();
     add_content("dimension", {D});
     add_content("input_points", {total_.input_points});
+    add_sides();
     if (const auto* piece = part_.piece) {
       const auto& of_whole = piece->total;
       add_content("piece", {of_whole.points, of_whole.input_points, of_whole.cells, of_whole.subfacets, of_whole.subsegments,
                             piece->first_point, piece->own_points});
     }
+  }
+
+  void add_sides() {
+    if (!part_.periodic) return;
+    const std::vector<PeriodicPairs>& sides = *part_.periodic;
+    TextBuffer markers, motions;
+    for (const PeriodicPairs& p : sides) {
+      for (const int marker : {p.from, p.to}) markers.put_binary(std::int64_t{marker});
+      for (const double x : p.motion) motions.put_binary(x);
+    }
+    add("FieldData", "Int64", periodic_sides_array,
+        " NumberOfComponents=\"2\" NumberOfTuples=\"" + std::to_string(sides.size()) + '"', markers.text().size())
+        .content = markers.text();
+    add("FieldData", "Float64", periodic_motions_array,
+        " NumberOfComponents=\"" + std::to_string(D * (D + 1)) + "\" NumberOfTuples=\"" + std::to_string(sides.size()) + '"',
+        motions.text().size())
+        .content = motions.text();
   }
 
   void add_point_data() {

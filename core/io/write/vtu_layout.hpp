@@ -9,7 +9,7 @@
 // the cells and "marker" for the others. Field data "dimension" and "input_points" let our reader restore the mesh; of each name
 // there is an array of that name with what it stands for: pairs of a label or marker, and the dimension of what has it, as meshio
 // has it of gmsh's files. The file of a piece has the numbers of its points and cells in the whole mesh, too, and field data
-// "piece".
+// "piece". Of sides that correspond field data "periodic_sides" has pairs of markers, "periodic_motions" a motion of each.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +21,7 @@
 #include "paths/file_output.hpp"
 #include "pgdr/mesh_fields.hpp"
 #include "pgdr/mesh_piece.hpp"
+#include "pgdr/periodic.hpp"
 
 namespace pgdr::detail {
 
@@ -34,10 +35,18 @@ struct VtuPart {
   const std::vector<Number>* point_numbers = nullptr;  ///< of mesh->points in the file; null: they are all points, in their order
   Number first_point = 0, own_points = 0;              ///< the rows of points, by their numbers in the file
   Number first_cell = 0, first_subfacet = 0, first_subsegment = 0;
-  const MeshPiece<D>* piece = nullptr;          ///< of a whole mesh whose numbers the file has, too
-  std::vector<std::uint32_t> periodic_of = {};  ///< of all points; empty: nothing is periodic
-  const MeshFields* fields = nullptr;           ///< of a whole mesh: further arrays
-  const MidSides<D>* middles = nullptr;         ///< of a whole mesh of second order, which has these nodes
+  const MeshPiece<D>* piece = nullptr;                   ///< of a whole mesh whose numbers the file has, too
+  std::vector<std::uint32_t> periodic_of = {};           ///< of all points; empty: nothing is periodic
+  const std::vector<PeriodicPairs>* periodic = nullptr;  ///< of a whole mesh: the sides of that
+  const MeshFields* fields = nullptr;                    ///< of a whole mesh: further arrays
+  const MidSides<D>* middles = nullptr;                  ///< of a whole mesh of second order, which has these nodes
+
+  /// @param pairs outlive this
+  void set_periodic(const std::vector<PeriodicPairs>& pairs) {
+    if (pairs.empty()) return;
+    periodic = &pairs;
+    periodic_of = pgdr::periodic_of(pairs, mesh->points.size());
+  }
 
   static VtuPart whole(const OutputMesh<D>& mesh);          ///< all rows of the file of a mesh
   static VtuPart rows_of(const MeshPiece<D>& piece);        ///< its rows of the file of the whole mesh
