@@ -66,7 +66,7 @@ class PointIndex {
 
 constexpr std::size_t binary_header = 84, binary_triangle = 50;
 
-std::uint32_t little_endian(std::string_view text, std::size_t at) {
+std::uint32_t number_at(std::string_view text, std::size_t at) {
   std::uint32_t v = 0;
   for (std::size_t i = 0; i < 4; ++i) v |= std::uint32_t{static_cast<unsigned char>(text[at + i])} << (8 * i);
   return v;
@@ -89,7 +89,7 @@ bool starts_with_solid(std::string_view text) {
 
 void check_binary_size(std::string_view text, const Plc<3>& plc) {
   if (text.size() < binary_header) fail_binary(plc, Errc::truncated, "the file ends within the header");
-  const std::uint64_t n = little_endian(text, binary_header - 4);
+  const std::uint64_t n = number_at(text, binary_header - 4);
   const std::uint64_t size = binary_header + n * binary_triangle;
   const std::string story = "the header states " + std::to_string(n) + " triangles, hence " + std::to_string(size) +
                             " bytes, but the file has " + std::to_string(text.size());
@@ -129,7 +129,7 @@ std::string name_in_header(std::string_view text) {
 }
 
 void read_binary(std::string_view text, Plc<3>& plc) {
-  const std::size_t n = little_endian(text, binary_header - 4);
+  const std::size_t n = number_at(text, binary_header - 4);
   plc.facets.reserve(n);
   PointIndex index(plc.points);
   for (std::size_t t = 0; t < n; ++t) {
@@ -138,7 +138,7 @@ void read_binary(std::string_view text, Plc<3>& plc) {
     for (auto& c : corners) {
       Point<3> p;
       for (int i = 0; i < 3; ++i, at += 4) {
-        p[i] = std::bit_cast<float>(little_endian(text, at));
+        p[i] = std::bit_cast<float>(number_at(text, at));
         if (!std::isfinite(p[i]))
           fail_binary(plc, Errc::not_finite, "a coordinate of triangle " + std::to_string(t) + " is not finite",
                       {static_cast<std::int64_t>(t)});
@@ -233,7 +233,7 @@ Plc<3> read_stl(std::string_view text, const std::filesystem::path& file) {
   Plc<3> plc;
   plc.source.file = file.string();
   const bool sizes_agree = text.size() >= binary_header &&
-                           text.size() == binary_header + std::uint64_t{little_endian(text, binary_header - 4)} * binary_triangle;
+                           text.size() == binary_header + std::uint64_t{number_at(text, binary_header - 4)} * binary_triangle;
   if (!sizes_agree && starts_with_solid(text)) {
     AsciiReader(text, plc).read();
   } else {
