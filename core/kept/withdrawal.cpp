@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "change/replacement.hpp"
 #include "kept/hull_filling.hpp"
 #include "kept/numbers.hpp"
+#include "kept/rim_filling.hpp"
 #include "kept/vertex_parts.hpp"
 #include "numbers/corners.hpp"
 #include "pgdr/predicates.hpp"
@@ -30,7 +32,7 @@ enum class Means { none, growth, point_inside };
 class Withdrawal {
  public:
   Withdrawal(Mesh<3>& mesh, Mesh<3>::Pools& pools, const Domain<3>& domain, const KeptEntities<3>& kept)
-      : mesh_(&mesh), pools_(&pools), parts_(mesh, domain), filling_(mesh, domain), replacer_(mesh) {
+      : mesh_(&mesh), pools_(&pools), parts_(mesh, domain), filling_(mesh, domain), rim_(mesh, domain), replacer_(mesh) {
     find_points(kept);
   }
 
@@ -50,13 +52,16 @@ class Withdrawal {
   void find_points(const KeptEntities<3>& kept);
   void work_off(Points& points, Means most, const std::stop_token& stop);
   bool take_off(VertexId v, Means most);
+  bool try_filling(Means most, bool with_own);
   bool fill(Hull& hull, Means most);
   bool fill_growing(Hull& hull);
   bool grow(Hull& hull);
   void take_cell(Hull& hull, CellId c);
   bool dig_out(Hull& hull, const Point3& x);
   bool fill_about_new_point(const Hull& hull);
+  bool fill_about_rim(const Hull& hull);
   bool add_star(const Hull& hull, const Point3& x);
+  VertexId make_point(const Point3& x, std::span<const VertexId> neighbors);
   void commit();
   /// Have the cells at the vertex changed since these means did nothing for it? Else they will not.
   bool is_new(VertexId v, Means means) {
@@ -71,6 +76,7 @@ class Withdrawal {
   Mesh<3>::Pools* pools_;
   VertexParts parts_;
   HullFilling filling_;
+  RimFilling rim_;
   Replacer<3> replacer_;
   Replacement<3> tried_;
   VertexId vertex_{};                                   ///< that is to go
@@ -112,20 +118,26 @@ void Withdrawal::work_off(Points& points, Means most, const std::stop_token& sto
   }
 }
 
-/// Makes the mesh do without the vertex, if it can.
+/// Makes the mesh do without the vertex, if it can. What the vertices at hand fill may not fit what is around: then each sector
+/// gets a point of its own.
 bool Withdrawal::take_off(VertexId v, Means most) {
   vertex_ = v;
   if (!parts_.take(v, cell_at_[index(v)])) return false;
+  if (try_filling(most, true)) return true;
+  return most == Means::point_inside && try_filling(most, false);
+}
+
+bool Withdrawal::try_filling(Means most, bool with_own) {
   tried_.clear();
   tried_.old = parts_.cells();
   for (const auto& t : parts_.triangles()) tried_.walls.push_back({t.corners, t.facet});
-  if (const auto& ends = parts_.subsegment()) tried_.subsegments.push_back({*ends, mesh_->vertex(v).home.id()});
+  if (const auto& ends = parts_.subsegment()) tried_.subsegments.push_back({*ends, mesh_->vertex(vertex_).home.id()});
   facets_ = facets_at(*mesh_, tried_.old);
   made_.clear();
   bool filled = true;
   for (const Hull& sector : parts_.hulls()) {
     Hull hull = sector;
-    filled = filled && fill(hull, most);
+    filled = filled && ((with_own && filling_.fill(hull, facets_, tried_.cells)) || fill(hull, most));
   }
   if (!filled || !replacer_.fits(tried_)) {
     for (std::size_t i = made_.size(); i-- > 0;) pools_->vertices.give(index(made_[i]));
@@ -135,8 +147,8 @@ bool Withdrawal::take_off(VertexId v, Means most) {
   return true;
 }
 
+/// By more than its own vertices.
 bool Withdrawal::fill(Hull& hull, Means most) {
-  if (filling_.fill(hull, facets_, tried_.cells)) return true;
   if (most == Means::growth) return fill_growing(hull);
   return most == Means::point_inside && fill_about_new_point(hull);
 }
@@ -235,7 +247,7 @@ bool Withdrawal::fill_about_new_point(const Hull& hull) {
   const Point3& from = mesh_->point(vertex_);
   const auto& d = hull.inwards;
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  if (!(length > 0)) return false;
+  if (!(length > 0)) return fill_about_rim(hull);
   double size = 0;
   for (const auto& face : hull.faces)
     for (const VertexId v : face) size = std::max(size, squared_distance(mesh_->point(v), from));
@@ -251,13 +263,32 @@ bool Withdrawal::fill_about_new_point(const Hull& hull) {
   return false;
 }
 
-bool Withdrawal::add_star(const Hull& hull, const Point3& x) {
+/// At the rim of a sheet both of whose sides the sector is on.
+bool Withdrawal::fill_about_rim(const Hull& hull) {
+  const auto& rim = parts_.subsegment();
+  if (parts_.hulls().size() != 1 || !rim || parts_.triangles().empty()) return false;
+  if (!rim_.fill(hull, vertex_, parts_.triangles(), *rim)) return false;
+  std::vector<VertexId> vertices = rim_.old_vertices();
+  const std::size_t old = vertices.size();
+  for (const Point3& x : rim_.new_points()) vertices.push_back(make_point(x, std::span(vertices).first(old)));
+  for (const auto& cell : rim_.cells())
+    tried_.cells.push_back({{vertices[cell[0]], vertices[cell[1]], vertices[cell[2]], vertices[cell[3]]}, hull.region});
+  return true;
+}
+
+/// A point inside, with the distance to the nearest of its neighbours.
+VertexId Withdrawal::make_point(const Point3& x, std::span<const VertexId> neighbors) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const auto& face : hull.faces)
-    for (const VertexId v : face) nearest = std::min(nearest, squared_distance(mesh_->point(v), x));
+  for (const VertexId v : neighbors) nearest = std::min(nearest, squared_distance(mesh_->point(v), x));
   const float radius = std::nextafter(static_cast<float>(std::sqrt(nearest)), 0.f);
-  const VertexId m = mesh_->new_vertex(*pools_, x, Home(EntityKind::volume, 0), radius);
-  made_.push_back(m);
+  made_.push_back(mesh_->new_vertex(*pools_, x, Home(EntityKind::volume, 0), radius));
+  return made_.back();
+}
+
+bool Withdrawal::add_star(const Hull& hull, const Point3& x) {
+  std::vector<VertexId> corners;
+  for (const auto& face : hull.faces) corners.insert(corners.end(), face.begin(), face.end());
+  const VertexId m = make_point(x, corners);
   for (const auto& face : hull.faces) tried_.cells.push_back({{face[0], face[1], face[2], m}, hull.region});
   return true;
 }

@@ -10,8 +10,8 @@
 // inside. So does any point near enough to v. The new triangles of the fans lie in the planes of these, on whose inner side v' =
 // v + eps d is for each eps > 0, as d is strictly inside of all their half-spaces: so v' sees them, too. Cells from v' to all
 // faces are positive, and their boundary is that of the sector: they fill it (change/replacement.hpp). There is such a d but
-// where a sector is on both sides of one fan, at the rim of a sheet, or has no fan, at a segment of no facet. In doubles there
-// may be no such v'; then v stays, and is counted.
+// where a sector is on both sides of one fan, at the rim of a sheet, where several points do it (kept/rim_filling.hpp), or has no
+// fan, at a segment of no facet. In doubles there may be no such v'; then v stays, and is counted.
 //
 // Points inside go again where the cells about them, or some more, can be filled without. Nothing here depends on threads.
 #pragma once
