@@ -122,7 +122,7 @@ class Kept {
     if (!tree_) {
       std::vector<detail::Box<D>> boxes;
       for (std::uint32_t v = 0; v < mesh_.points.size(); ++v)
-        if (may_be_[v]) {
+        if (may_be(v)) {
           boxes.push_back(detail::Box<D>::around(mesh_.points[v]));
           vertices_.push_back(v);
         }

@@ -40,6 +40,10 @@ bool PlaneEdges::is_of_segments(std::uint64_t key) const {
   return others.empty() || joints_.is_soft(others, width_);
 }
 
+bool PlaneEdges::is_on_outline(std::uint64_t key) const {
+  return std::ranges::any_of(uses_.of(key), [](const EdgeUse& use) { return use.kind == Kind::rim; });
+}
+
 /// Do facets of this plane alone have the edge, and none of them as an edge of a polygon that bounds no triangle of it?
 bool PlaneEdges::lies_in_plane(std::span<const EdgeUse> uses, std::uint32_t plane,
                                std::span<const std::uint32_t> plane_of) const {

@@ -30,6 +30,8 @@ class PlaneEdges {
   bool is_soft(std::uint64_t key, std::span<const std::uint32_t> plane_of) const;
   /// Is it an edge of segments of the input alone, which no facet would have without them?
   bool is_of_segments(std::uint64_t key) const;
+  /// Is it an edge of the outline of a facet, or of a triangle of the input?
+  bool is_on_outline(std::uint64_t key) const;
 
  private:
   bool lies_in_plane(std::span<const EdgeUse> uses, std::uint32_t plane, std::span<const std::uint32_t> plane_of) const;

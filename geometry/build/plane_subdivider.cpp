@@ -142,9 +142,11 @@ void PlaneSubdivider::look_across(std::uint32_t t, std::uint64_t key, const Plan
   }
 }
 
-// Two segments of the input that no facet has, and that cross, are refused wherever they do.
+// Two segments of the input that cross are refused wherever they do, if no facet has edges there. Those that run along outlines
+// of facets cross where these overlap, and are cut as they are.
 void PlaneSubdivider::add_crossing(std::uint64_t first, std::uint64_t second, const PlaneEdges& edges) {
-  if (!edges.is_of_segments(first) || !edges.is_of_segments(second))
+  const bool of_outlines = edges.is_on_outline(first) && edges.is_on_outline(second);
+  if (of_outlines || !edges.is_of_segments(first) || !edges.is_of_segments(second))
     crossing_.emplace_back(std::min(first, second), std::max(first, second));
 }
 
