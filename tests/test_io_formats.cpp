@@ -387,7 +387,10 @@ TEST(ReadTetgen, ForeignFiles) {
   EXPECT_TRUE(holds_cells(folder / "a.ele"));
   EXPECT_FALSE(holds_cells(folder / "a.node"));
   EXPECT_EQ(error_of<InputError>([&] { read_mesh<2>(folder / "a.ele"); }).code, Errc::syntax);
-  folder.put("a.ele", "1 10 0\n0 0 1 2 3 0 1 2 3 0 1\n");
+  folder.put("a.ele", "1 10 0\n0 0 1 2 3 0 1 2 3 0 1\n");  // of second order, whose nodes are corners, too
+  EXPECT_EQ(read_mesh<3>(folder / "a.ele").cells, mesh.cells);
+  EXPECT_EQ(read_mesh<3>(folder / "a.ele").points, mesh.points);
+  folder.put("a.ele", "1 8 0\n0 0 1 2 3 0 1 2 3\n");
   EXPECT_EQ(error_of<InputError>([&] { read_mesh<3>(folder / "a.ele"); }).code, Errc::unknown_format);
   folder.put("a.ele", "1 4 0\n0 0 1 2 4\n");
   const auto error = error_of<InputError>([&] { read_mesh<3>(folder / "a.node"); });
