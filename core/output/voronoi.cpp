@@ -19,7 +19,7 @@ namespace pgdr {
 namespace {
 
 constexpr double rounding_of_cosine = 1e-9;  // vertices on slanted segments are off these by rounding
-constexpr std::uint32_t nothing = 0xffffffffu;
+constexpr std::uint32_t nobody_there = 0xffffffffu;
 
 [[noreturn]] void refuse_mesh(const std::string& what) { throw UsageError({Errc::bad_option, what, {}, 0, {}, {}}); }
 
@@ -61,9 +61,9 @@ class CellMaker {
   static std::uint32_t last(std::uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
   const Point2& at(std::uint32_t corner) const { return mesh_.points[vertex(corner)]; }
 
-  /// Of each edge the same edge in the triangle beyond, or nothing.
+  /// Of each edge the same edge in the triangle beyond, or nobody_there.
   void find_beyond() {
-    beyond_.assign(3 * mesh_.cells.size(), nothing);
+    beyond_.assign(3 * mesh_.cells.size(), nobody_there);
     for (std::uint32_t edge = 0; edge < beyond_.size(); ++edge) {
       const std::uint32_t other = neighbors_[edge / 3][edge % 3];
       if (other == no_cell_beyond) continue;
@@ -85,7 +85,7 @@ class CellMaker {
   void require_centers_inside() const {
     std::size_t wrong = 0;
     for (std::uint32_t edge = 0; edge < beyond_.size(); ++edge) {
-      const double opposite = beyond_[edge] == nothing ? 0 : cosine(beyond_[edge]);
+      const double opposite = beyond_[edge] == nobody_there ? 0 : cosine(beyond_[edge]);
       if (!(cosine(edge) + opposite >= -rounding_of_cosine)) ++wrong;
     }
     if (wrong > 0)
@@ -97,17 +97,17 @@ class CellMaker {
   void make_points() {
     auto& points = made_.points;
     for (std::size_t c = 0; c < mesh_.cells.size(); ++c) points.push_back(circumsphere<2>(corners_of(mesh_, c)).center);
-    own_.assign(mesh_.points.size(), nothing);
-    middle_.assign(beyond_.size(), nothing);
+    own_.assign(mesh_.points.size(), nobody_there);
+    middle_.assign(beyond_.size(), nobody_there);
     for (std::uint32_t edge = 0; edge < beyond_.size(); ++edge) {
-      if (beyond_[edge] != nothing) continue;
+      if (beyond_[edge] != nobody_there) continue;
       const Point2 &a = at(next(edge)), &b = at(last(edge));
       middle_[edge] = static_cast<std::uint32_t>(points.size());
       points.push_back({a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2});
       own_[vertex(next(edge))] = own_[vertex(last(edge))] = 0;
     }
     for (std::uint32_t v = 0; v < own_.size(); ++v)
-      if (own_[v] != nothing) {
+      if (own_[v] != nobody_there) {
         own_[v] = static_cast<std::uint32_t>(points.size());
         points.push_back(mesh_.points[v]);
       }
@@ -123,15 +123,15 @@ class CellMaker {
     for (std::uint32_t c = 0; c < beyond_.size(); ++c) about_[free[vertex(c)]++] = c;
   }
 
-  /// About a vertex inside its triangles are a ring; about one of the boundary they are fans, each from an edge with nothing
+  /// About a vertex inside its triangles are a ring; about one of the boundary they are fans, each from an edge with nobody_there
   /// before.
   void put_cell(std::uint32_t v) {
     const auto begin = about_.begin() + static_cast<std::ptrdiff_t>(begin_[v]),
                end = about_.begin() + static_cast<std::ptrdiff_t>(begin_[v + 1]);
     if (begin == end) return;
-    if (own_[v] == nothing) return put_fan(*begin);
+    if (own_[v] == nobody_there) return put_fan(*begin);
     std::vector<std::uint32_t> starts;
-    std::copy_if(begin, end, std::back_inserter(starts), [&](std::uint32_t c) { return beyond_[last(c)] == nothing; });
+    std::copy_if(begin, end, std::back_inserter(starts), [&](std::uint32_t c) { return beyond_[last(c)] == nobody_there; });
     const Point2 &o = mesh_.points[v], &first = at(next(starts.front()));
     const auto beyond_half = [&](const Point2& x) { return orient2d(o, first, x) == Sign::negative; };
     std::sort(starts.begin() + 1, starts.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -144,20 +144,20 @@ class CellMaker {
   /// The triangles about a vertex counterclockwise, from one of its corners to the boundary, or to where it began.
   void put_fan(std::uint32_t start) {
     auto& out = made_.corners;
-    if (beyond_[last(start)] == nothing) {
+    if (beyond_[last(start)] == nobody_there) {
       out.push_back(own_[vertex(start)]);
       out.push_back(middle_[last(start)]);
     }
     for (std::uint32_t corner = start;;) {
       out.push_back(corner / 3);
       const std::uint32_t edge = next(corner), across = beyond_[edge];
-      if (across == nothing) return out.push_back(middle_[edge]);
+      if (across == nobody_there) return out.push_back(middle_[edge]);
       corner = next(across);
       if (corner == start) return;
     }
   }
 
-  /// By triangles with the site, so that nothing cancels far from the origin.
+  /// By triangles with the site, so that nobody_there cancels far from the origin.
   double area(std::uint32_t v) const {
     const std::size_t begin = made_.offsets[v], end = made_.offsets[v + 1];
     double sum = 0;
@@ -171,14 +171,15 @@ class CellMaker {
   void link() {
     std::vector<std::uint32_t> edges;
     for (std::uint32_t e = 0; e < beyond_.size(); ++e)
-      if (beyond_[e] == nothing || e < beyond_[e]) edges.push_back(e);
+      if (beyond_[e] == nobody_there || e < beyond_[e]) edges.push_back(e);
     const auto ends = [this](std::uint32_t e) {
       return std::array{std::min(vertex(next(e)), vertex(last(e))), std::max(vertex(next(e)), vertex(last(e)))};
     };
     std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) { return ends(a) < ends(b); });
     for (const std::uint32_t e : edges) {
       made_.links.push_back(ends(e));
-      made_.widths.push_back(distance(made_.points[e / 3], made_.points[beyond_[e] == nothing ? middle_[e] : beyond_[e] / 3]));
+      made_.widths.push_back(
+          distance(made_.points[e / 3], made_.points[beyond_[e] == nobody_there ? middle_[e] : beyond_[e] / 3]));
       made_.lengths.push_back(distance(at(next(e)), at(last(e))));
     }
   }
@@ -186,7 +187,7 @@ class CellMaker {
   const OutputMesh<2>& mesh_;
   std::vector<std::array<std::uint32_t, 3>> neighbors_;
   std::vector<std::uint32_t> beyond_;
-  std::vector<std::uint32_t> own_;     ///< of each vertex of the boundary its row in `points`; else nothing
+  std::vector<std::uint32_t> own_;     ///< of each vertex of the boundary its row in `points`; else nobody_there
   std::vector<std::uint32_t> middle_;  ///< of each edge of the boundary that of its middle
   std::vector<std::size_t> begin_;
   std::vector<std::uint32_t> about_;  ///< corners by vertices: those of vertex v from begin_[v]

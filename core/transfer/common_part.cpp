@@ -33,10 +33,11 @@ class Polygon {
   }
 
   /// Keeps what is on the inner side; the cut is this side. @returns whether anything is
+  /// @param of_corners  where nothing is cut yet: at() of the corners
   template <class At>
-  bool cut(std::uint8_t side, const At& at) {
+  bool cut(std::uint8_t side, const At& at, const std::array<double, 3>* of_corners) {
     std::array<double, most> sides;  // as all here, not set beyond size_: to clear what is not used takes as long as a cut
-    for (std::size_t i = 0; i < size_; ++i) sides[i] = at(corners_[i].place);
+    for (std::size_t i = 0; i < size_; ++i) sides[i] = of_corners ? (*of_corners)[i] : at(corners_[i].place);
     std::array<Corner, most> out;
     std::size_t n = 0;
     for (std::size_t i = 0; i < size_; ++i) {
@@ -96,12 +97,13 @@ class Polyhedron {
   }
 
   /// Keeps what is on the inner side; the cut is this side. @returns whether anything is
+  /// @param of_corners  where nothing is cut yet: at() of the corners
   template <class At>
-  bool cut(std::uint8_t side, const At& at) {
+  bool cut(std::uint8_t side, const At& at, const std::array<double, 4>* of_corners) {
     std::array<double, most> sides;
     std::size_t outside = 0;
     for (std::size_t i = 0; i < size_; ++i) {
-      sides[i] = at(vertices_[i].place);
+      sides[i] = of_corners ? (*of_corners)[i] : at(vertices_[i].place);
       outside += sides[i] < 0;
     }
     if (outside == 0 || outside == size_) return outside == 0;
@@ -261,22 +263,26 @@ template <int D>
 double InsideOf<D>::common_with(const Simplex<D>& other, unsigned& sides) const {
   std::array<Vector, D + 1> x;
   for (std::size_t i = 0; i <= D; ++i) x[i] = relative(other[i]);
+  std::array<std::array<double, D + 1>, D + 1> at;  // of planes, of corners
   std::array<bool, D + 1> cuts;
   for (std::size_t k = 0; k <= D; ++k) {
     std::size_t inside = 0, outside = 0;
-    for (const Vector& p : x) {
-      const double side = planes_[k].at(p);
-      inside += side >= 0;
-      outside += side <= 0;
+    for (std::size_t i = 0; i <= D; ++i) {
+      at[k][i] = planes_[k].at(x[i]);
+      inside += at[k][i] >= 0;
+      outside += at[k][i] <= 0;
     }
     if (outside == D + 1) return 0;
     cuts[k] = inside <= D;
   }
   std::conditional_t<D == 2, Polygon, Polyhedron> part(x);
-  for (std::size_t k = 0; k <= D; ++k)
-    if (cuts[k] &&
-        !part.cut(static_cast<std::uint8_t>(D + 1 + k), [&plane = planes_[k]](const Vector& p) { return plane.at(p); }))
-      return 0;
+  bool is_whole = true;
+  for (std::size_t k = 0; k <= D; ++k) {
+    if (!cuts[k]) continue;
+    const auto of_plane = [&plane = planes_[k]](const Vector& p) { return plane.at(p); };
+    if (!part.cut(static_cast<std::uint8_t>(D + 1 + k), of_plane, is_whole ? &at[k] : nullptr)) return 0;
+    is_whole = false;
+  }
   std::array<Vector, 2 * (D + 1)> on_side;
   for (std::size_t k = 0; k <= D; ++k) {
     on_side[k] = x[(k + 1) % (D + 1)];

@@ -19,7 +19,6 @@
 #include "pgdr/error.hpp"
 #include "space/box_tree.hpp"
 #include "space/bulk.hpp"
-#include "space/equal_rows.hpp"
 #include "transfer/common_part.hpp"
 
 namespace pgdr {
@@ -109,6 +108,20 @@ class NearestCells {
   std::optional<detail::BoxTree<D>> tree_;
 };
 
+/// Calls f(j, its parts) for the cells [0, cells), on all threads. @param parts  by cells
+template <class Part, class F>
+void each_with_parts(std::size_t cells, std::span<const Part> parts, const F& f) {
+  detail::Bulk(true).blocks(cells, [&](std::size_t begin, std::size_t end) {
+    auto first = std::lower_bound(parts.begin(), parts.end(), begin, [](const Part& part, std::size_t j) { return part.to < j; });
+    for (std::size_t j = begin; j < end; ++j) {
+      auto last = first;
+      while (last != parts.end() && last->to == j) ++last;
+      f(j, parts.subspan(static_cast<std::size_t>(first - parts.begin()), static_cast<std::size_t>(last - first)));
+      first = last;
+    }
+  });
+}
+
 /// A few numbers, of which it is asked whether they are there already: in a table on the stack, until they are many.
 class NumberSet {
  public:
@@ -155,7 +168,11 @@ std::vector<std::array<std::uint32_t, D + 1>> cells_beyond(const OutputMesh<D>& 
   std::vector<detail::CellFace<D>> faces = detail::faces_by_vertex<D>(mesh, begin);
   bulk.each(mesh.points.size(), [&](std::size_t v) {
     const auto group = std::span(faces).subspan(begin[v], begin[v + 1] - begin[v]);
-    std::ranges::sort(group, {}, [](const detail::CellFace<D>& f) { return std::pair(f.others, f.place); });
+    std::sort(group.begin(), group.end(), [](const detail::CellFace<D>& a, const detail::CellFace<D>& b) {
+      for (std::size_t k = 0; k + 1 < D; ++k)
+        if (a.others[k] != b.others[k]) return a.others[k] < b.others[k];
+      return a.place < b.place;
+    });
     for (std::size_t i = 0, next; i < group.size(); i = next) {
       for (next = i + 1; next < group.size() && group[next].others == group[i].others;) ++next;
       if (next - i != 2) continue;
@@ -324,9 +341,9 @@ template <int D>
 std::vector<double> CellTransfer<D>::means(std::span<const double> values, std::size_t width) const {
   require_count(values.size(), measures_.size(), width);
   std::vector<double> out(new_cells_ * width, 0);
-  detail::Bulk(true).each(new_cells_, [&](std::size_t j) {
+  each_with_parts(new_cells_, std::span<const Part>(parts_), [&](std::size_t j, std::span<const Part> parts) {
     if (new_measures_[j] == 0) return;
-    for (const Part& part : detail::equal_rows(std::span<const Part>(parts_), j, &Part::to)) {
+    for (const Part& part : parts) {
       const double share = part.measure / shared_[part.from] * measures_[part.from];
       for (std::size_t k = 0; k < width; ++k) out[j * width + k] += share * values[part.from * width + k];
     }
@@ -339,10 +356,9 @@ template <int D>
 std::vector<double> CellTransfer<D>::largest_share(std::span<const double> values) const {
   require_count(values.size(), measures_.size(), 1);
   std::vector<double> out(new_cells_, 0);
-  detail::Bulk(true).each(new_cells_, [&](std::size_t j) {
+  each_with_parts(new_cells_, std::span<const Part>(parts_), [&](std::size_t j, std::span<const Part> parts) {
     std::vector<std::pair<double, double>> shares;  // value, measure
-    for (const Part& part : detail::equal_rows(std::span<const Part>(parts_), j, &Part::to))
-      shares.emplace_back(values[part.from], part.measure);
+    for (const Part& part : parts) shares.emplace_back(values[part.from], part.measure);
     std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     double most = -1;
     for (std::size_t first = 0, last; first < shares.size(); first = last) {
