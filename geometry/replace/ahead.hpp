@@ -17,7 +17,7 @@
 namespace pgdr::detail {
 
 /// @tparam Candidate  with an operator<: the largest comes first, what is equal is the same; of two with unlike key()s that with
-/// the less one
+/// the less one. Of those with is_same() that wait, which follow each other, one counts
 template <class Candidate>
 class AheadQueue {
  public:
@@ -101,7 +101,10 @@ class AheadQueue {
     const std::size_t left = front_.size();
     if (left > 2 * ahead_) return;  // what is tried too long before its turn is tried in vain
     const std::size_t most = std::max(ahead_, left + ahead_ / 4);
-    while (front_.size() < most && !heap_.empty()) front_.push_back({take(), {}, false});
+    while (front_.size() < most && !heap_.empty()) {
+      const Candidate next = take();
+      if (front_.size() == left || !next.is_same(front_.back().candidate)) front_.push_back({next, {}, false});
+    }
     tried_ += front_.size() - left;
     changer_.bulk().parts(front_.size() - left, [&](std::size_t k) {
       Entry& e = front_[left + k];

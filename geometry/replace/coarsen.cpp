@@ -3,6 +3,7 @@
 #include "replace/coarsen.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -23,6 +24,7 @@ struct WaitingEdge {
     if (square != o.square) return square > o.square;
     return lex_less(o.low, low) || (low == o.low && lex_less(o.high, high));
   }
+  bool is_same(const WaitingEdge& o) const { return a == o.a && b == o.b && low == o.low && high == o.high; }
 };
 
 class Coarsening {
@@ -32,18 +34,22 @@ class Coarsening {
 
   bool run(const std::stop_token& stop) {
     const auto try_it = [this](const WaitingEdge& e, Trial& trial) { return try_edge(e, trial); };
+    std::optional<WaitingEdge> refused;  // the last one, if nothing has changed since
     for (bool any = true; any;) {
       any = false;
       push_all();
       while (!queue_.empty()) {
         if (stop.stop_requested()) return false;
         const WaitingEdge e = queue_.pop(try_it);
-        if (!is_there(e)) continue;
+        // An edge waits once for each change that was made at it: those follow each other.
+        if (!is_there(e) || (refused && e.is_same(*refused))) continue;
         if (changer_.settle(queue_.trial(e, try_it))) {
           any = true;
+          refused.reset();
           push_edges(changer_.last());
         } else {
           refused_[edge_key(e.a, e.b)] = touched(e.a, e.b);
+          refused = e;
         }
       }
     }

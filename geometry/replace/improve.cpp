@@ -26,6 +26,7 @@ struct WaitingFace {
   bool operator<(const WaitingFace& o) const {  // the worst is the top of a queue
     return corner != o.corner ? corner > o.corner : triangle_less(o.at, at);
   }
+  bool is_same(const WaitingFace& o) const { return face == o.face && touched == o.touched; }
 };
 
 class Improving {
