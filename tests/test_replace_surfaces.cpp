@@ -9,6 +9,7 @@
 #include <random>
 
 #include "model_plcs.hpp"
+#include "numbers/vectors.hpp"
 #include "pgdr/diagnosis.hpp"
 #include "pgdr/surface.hpp"
 #include "pgdr/surface_counts.hpp"
@@ -95,7 +96,7 @@ TEST(ReplaceSurface, FinsStay) {
     return relief(20, [height](double x, double y) { return std::fabs(x - 0.5) < 0.01 && y > 0.44 && y < 0.56 ? height : 0.0; });
   };
   const double e = 0.01;
-  const Plc<3> low = fin(0.9 * e), high = fin(2 * e);
+  const Plc<3> low = fin(0.7 * e), high = fin(2 * e);
   const ReplacedSurface of_low = replaced(low, e), of_high = replaced(high, e);
   check(low, of_low.plc, e);
   check(high, of_high.plc, e);
@@ -247,11 +248,12 @@ TEST(ReplaceSurface, CanBeEndedAnywhere) {
 }
 
 /// Trials that threads make ahead are settled in the order of one thread, and made anew where a change before them has touched
-/// what they read. A rough block on which changes of all kinds are made beside each other.
+/// what they read. A rough block of needles on which changes of all kinds are made beside each other.
 TEST(ReplaceSurface, AnyNumberOfThreads) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> off(-0.006, 0.006);
-  const Plc<3> plc = relief(40, [&](double x, double y) { return 0.1 * std::sin(7 * x) * std::sin(5 * y + x) + off(random); });
+  Plc<3> plc = relief(40, [&](double x, double y) { return 0.1 * std::sin(7 * x) * std::sin(5 * y + x) + off(random); });
+  for (Point3& p : plc.points) p[0] *= 0.25;
   SurfaceOptions options;
   options.tolerance = 0.01;
   options.wanted_corner = 38;
@@ -274,6 +276,55 @@ TEST(ReplaceSurface, AnyNumberOfThreads) {
               std::tie(r.refused.angle, r.refused.fold, r.refused.distance, r.refused.meets, r.refused.gap, r.refused.swept));
     EXPECT_EQ(std::tie(o.to_given, o.from_given, o.farthest_point), std::tie(r.to_given, r.from_given, r.farthest_point));
   }
+}
+
+/// A rough block whose triangles are needles.
+Plc<3> rough_needles(double roughness) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> off(-roughness, roughness);
+  Plc<3> plc = relief(24, [&](double, double) { return off(random); });
+  for (Point3& p : plc.points) p[0] *= 0.125;
+  return plc;
+}
+
+/// What is expected of the triangles with the marker 1: one cell a corner, and two for each unit of its cotangent.
+double expected_cells(const Plc<3>& plc) {
+  double sum = 0;
+  for (const auto& f : plc.facets) {
+    if (f.marker != 1 || f.polygons[0].size() != 3) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto corner = [&](std::size_t k) { return plc.points[f.polygons[0][(i + k) % 3]]; };
+      const auto u = detail::difference(corner(1), corner(0)), v = detail::difference(corner(2), corner(0)),
+                 n = detail::cross(u, v);
+      sum += 1 + 2 * std::max(0.0, std::min(32.0, detail::dot(u, v) / std::sqrt(detail::dot(n, n))));
+    }
+  }
+  return sum;
+}
+
+/// Splits that let nothing be cured are taken back, to the last bit: far below the heights of needles nothing can be.
+TEST(ReplaceSurface, SplitsInVainAreTakenBack) {
+  const Plc<3> plc = rough_needles(0.02);
+  const ReplacedSurface out = replaced(plc, 1e-6);
+  const SurfaceReport& r = out.report;
+  EXPECT_GT(r.refused.cells, 100u);
+  EXPECT_EQ(r.contracted + r.flipped + r.moved + r.split, 0u);
+  EXPECT_EQ(r.triangles[1], r.triangles[0]);
+  auto given = plc.points, points = out.plc.points;
+  for (auto* list : {&given, &points}) std::sort(list->begin(), list->end(), lex_less<3>);
+  EXPECT_EQ(given, points);
+}
+
+/// Splits that stay make needles go, and fewer cells expect.
+TEST(ReplaceSurface, SplitsPay) {
+  const Plc<3> plc = rough_needles(0.003);
+  const ReplacedSurface out = replaced(plc, 0.003);
+  const SurfaceReport& r = out.report;
+  EXPECT_GT(r.split, 10u);
+  ASSERT_GT(r.sharp_triangles[0], 500u);
+  EXPECT_LT(r.sharp_triangles[1], r.sharp_triangles[0] / 5);
+  EXPECT_LT(expected_cells(out.plc), expected_cells(plc));
+  check(plc, out.plc, 0.003, 2);
 }
 
 /// No edge gets longer than twice the size that is wished for.

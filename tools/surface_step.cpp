@@ -19,8 +19,8 @@ namespace {
 constexpr double usual_wanted_corner = 25, headroom = 10;
 
 JsonObject refusals(const SurfaceReport::Refused& r) {
-  return {{"angle", r.angle}, {"fold", r.fold}, {"size", r.size},  {"distance", r.distance},
-          {"meets", r.meets}, {"gap", r.gap},   {"swept", r.swept}};
+  return {{"angle", r.angle},       {"fold", r.fold},   {"cells", r.cells}, {"size", r.size},
+          {"distance", r.distance}, {"meets", r.meets}, {"gap", r.gap},     {"swept", r.swept}};
 }
 
 /// The least of the sizes that are asked for at a point; none if none is.

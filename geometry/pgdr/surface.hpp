@@ -50,6 +50,7 @@ struct SurfaceReport {
   struct Refused {
     std::uint64_t angle = 0;     ///< a corner too small, or a wide flat group broken
     std::uint64_t fold = 0;      ///< a ridge that was not there
+    std::uint64_t cells = 0;     ///< more cells expected; of a split with what follows from it
     std::uint64_t size = 0;      ///< an edge longer than the sizes there
     std::uint64_t distance = 0;  ///< too far, of facets or of curves
     std::uint64_t meets = 0;     ///< facets would cross or touch

@@ -71,6 +71,8 @@ Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal) const
   const SurfaceComplex& s = s_.complex;
   if (!regroup(s, change) || !are_corners_fine(change, goal)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
+  if (goal.rule == CornerRule::coarsen && expected_growth(s, change).cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
+    return Verdict::cells;
   if (!are_edges_short(change)) return Verdict::size;
   if (!is_place_near(s_, change, numbers::farthest_place * tolerance_) || !keeps_curves(s_, change, goal.distance) ||
       !is_near_given(s_, change, goal.distance) || !is_given_near(s_, change, goal.distance))
@@ -123,8 +125,51 @@ bool Changer::settle(const Trial& trial) {
   count_made(trial.change->kind);
   SurfaceChange change = *trial.change;
   if (change.kind == SurfaceChange::Kind::split) number_new_vertex(change, static_cast<std::uint32_t>(touched_.size()));
+  if (is_transaction_) note(change);
+  growth_ += expected_growth(s_.complex, change);
   make(change);
   return true;
+}
+
+void Changer::note(const SurfaceChange& change) {
+  const SurfaceComplex& s = s_.complex;
+  const bool moves = change.moved != no_index && change.kind != SurfaceChange::Kind::split;
+  made_.push_back({change, moves ? s.at(change.moved) : Point3{}, growth_});
+}
+
+void Changer::end_transaction(std::size_t kept) {
+  if (kept == 0) count_refused(Verdict::cells);
+  while (made_.size() > kept) take_back_last();
+  is_transaction_ = false;
+}
+
+/// What `make` has done, the other way round.
+void Changer::take_back_last() {
+  SurfaceComplex& s = s_.complex;
+  const SurfaceChange& change = made_.back().change;
+  const auto first = static_cast<std::uint32_t>(s.faces.size() - change.come.size());
+  for (std::uint32_t f = first; f < s.faces.size(); ++f)
+    for (const std::uint32_t v : s.faces[f].corners) --touched_[v];
+  const bool is_split = change.kind == SurfaceChange::Kind::split;
+  if (!is_split && change.moved != no_index) s.points[change.moved] = made_.back().from;
+  for (const std::uint32_t f : change.gone) {
+    s.put_back_face(f);
+    s_.boxes.put_back(f, Box<3>::of(s.triangle(f)), first);
+  }
+  for (std::size_t k = 0; k < change.come.size(); ++k) {
+    s.drop_last_face();
+    s_.boxes.remove_last();
+  }
+  for (const auto& k : change.kept_come) s.release(k.ends[0], k.ends[1]);
+  for (const auto& k : change.kept_gone) s.keep(k.ends[0], k.ends[1], k.curve);
+  if (is_split) {
+    s.drop_last_point();
+    touched_.pop_back();
+  }
+  count_made(change.kind, true);
+  growth_ = made_.back().growth;
+  last_.clear();
+  made_.pop_back();
 }
 
 void Changer::count_refused(Verdict verdict) {
@@ -132,6 +177,7 @@ void Changer::count_refused(Verdict verdict) {
   switch (verdict) {
     case Verdict::angle: ++r.angle; break;
     case Verdict::fold: ++r.fold; break;
+    case Verdict::cells: ++r.cells; break;
     case Verdict::size: ++r.size; break;
     case Verdict::distance: ++r.distance; break;
     case Verdict::meets: ++r.meets; break;
@@ -141,12 +187,13 @@ void Changer::count_refused(Verdict verdict) {
   }
 }
 
-void Changer::count_made(SurfaceChange::Kind kind) {
+void Changer::count_made(SurfaceChange::Kind kind, bool is_taken_back) {
   using Kind = SurfaceChange::Kind;
-  ++(kind == Kind::contract ? report_.contracted
-     : kind == Kind::flip   ? report_.flipped
-     : kind == Kind::move   ? report_.moved
-                            : report_.split);
+  auto& count = kind == Kind::contract ? report_.contracted
+                : kind == Kind::flip   ? report_.flipped
+                : kind == Kind::move   ? report_.moved
+                                       : report_.split;
+  is_taken_back ? --count : ++count;
 }
 
 void Changer::make(const SurfaceChange& change) {

@@ -31,7 +31,7 @@ struct ChangeGoal {
 };
 
 /// The first test that said no.
-enum class Verdict : std::uint8_t { yes, angle, fold, size, distance, meets, gap, swept };
+enum class Verdict : std::uint8_t { yes, angle, fold, cells, size, distance, meets, gap, swept };
 
 /// What came of a candidate: of its changes, judged one after the other until one passed.
 struct Trial {
@@ -58,6 +58,19 @@ class Changer {
   /// Counts what was judged, and makes the change that passed. @pre nothing in trial.read has changed since. @returns was there
   /// one?
   bool settle(const Trial& trial);
+
+  /// Changes that are made from here on can be taken back, by end_transaction().
+  void begin_transaction() {
+    is_transaction_ = true;
+    made_.clear();
+  }
+  /// How many have been made since.
+  std::size_t made() const { return made_.size(); }
+  /// How much more the surface makes expect than the given one.
+  const Expected& growth() const { return growth_; }
+  /// Takes all but the first `kept` back: the surface is what it was then, to the numbers of its faces and points. If none is
+  /// kept, that counts as refused.
+  void end_transaction(std::size_t kept);
 
   /// May trials be made ahead, by several threads?
   bool looks_ahead() const { return bulk_.is_parallel(); }
@@ -89,7 +102,9 @@ class Changer {
   bool are_edges_short(const SurfaceChange& change) const;
   void make(const SurfaceChange& change);
   void count_refused(Verdict verdict);
-  void count_made(SurfaceChange::Kind kind);
+  void count_made(SurfaceChange::Kind kind, bool is_taken_back = false);
+  void note(const SurfaceChange& change);
+  void take_back_last();
 
   ChangingSurface& s_;
   double tolerance_;
@@ -100,6 +115,16 @@ class Changer {
   std::vector<std::uint32_t> touched_;
   std::vector<std::uint32_t> last_;
   std::vector<Box<3>> changed_;
+
+  /// Of a transaction.
+  struct Made {
+    SurfaceChange change;
+    Point3 from;      // where the vertex that moved was
+    Expected growth;  // before it
+  };
+  Expected growth_;
+  bool is_transaction_ = false;
+  std::vector<Made> made_;
 };
 
 /// Levels of corners, by one percent each, from flat to the corner that is wanted: how many are passed.

@@ -49,6 +49,23 @@ void SurfaceComplex::remove_face(std::uint32_t f) {
   ++faces[f].changes;
 }
 
+void SurfaceComplex::put_back_face(std::uint32_t f) {
+  faces[f].alive = true;
+  for (const std::uint32_t v : faces[f].corners) faces_at[v].push_back(f);
+}
+
+void SurfaceComplex::drop_last_face() {
+  remove_face(static_cast<std::uint32_t>(faces.size() - 1));
+  faces.pop_back();
+}
+
+void SurfaceComplex::drop_last_point() {
+  points.pop_back();
+  faces_at.pop_back();
+  kept_at.pop_back();
+  order.pop_back();
+}
+
 bool triangle_less(std::array<Point3, 3> a, std::array<Point3, 3> b) {
   sort_corners(a);
   sort_corners(b);

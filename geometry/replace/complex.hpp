@@ -114,6 +114,12 @@ class SurfaceComplex {
   std::uint32_t add_point(const Point3& p, VertexOrder o);
   std::uint32_t add_face(const SurfaceFace& face);
   void remove_face(std::uint32_t f);
+  /// A face that was removed is there again.
+  void put_back_face(std::uint32_t f);
+  /// Takes the last face away, with its number. @pre it is there
+  void drop_last_face();
+  /// Takes the last point away, with its number. @pre nothing has it
+  void drop_last_point();
 };
 
 /// Is one before the other, in an order of triangles that the numbers of points have no part in? By their corners in ascending

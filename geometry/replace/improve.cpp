@@ -3,8 +3,11 @@
 //
 // The worst face is given to the changes that may cure it, one after the other, until one is made. (The idea of a greatest least
 // angle, worst first, is that of Hu, Yan, Bommes, Alliez and Benes 2017.) A face for which none is made waits until a face at its
-// vertices changes.
+// vertices changes. A split cures no corner by itself: the corner stays, at the end of a shorter needle, until a flip, a move or
+// a contraction takes it away, which a split may only make possible. So a split is made with what follows from it, as one
+// transaction.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "replace/ahead.hpp"
@@ -54,9 +57,9 @@ class Improving {
       const WaitingFace w = queue_.pop(try_it);
       if (!is_waiting(w)) continue;
       const Trial trial = queue_.trial(w, try_it);
-      if (!changer_.settle(trial)) continue;
-      if (trial.change->kind == SurfaceChange::Kind::split) note_split();
-      push_near();
+      const auto first = static_cast<std::uint32_t>(s_.faces.size());
+      if (trial.change && trial.change->kind == SurfaceChange::Kind::split ? !cure(trial) : !changer_.settle(trial)) continue;
+      push_near(first);
       if (is_waiting(w)) push(w.face);  // a split farther away
     }
     return true;
@@ -71,16 +74,21 @@ class Improving {
   }
   /// It is there, and nothing at its vertices has changed.
   bool is_waiting(const WaitingFace& w) const { return s_.faces[w.face].alive && w.touched == touched(w.face); }
-  void push(std::uint32_t f) {
+  /// A face, if it has a corner that is smaller than wanted.
+  std::optional<WaitingFace> waiting(std::uint32_t f) const {
     const HalfTangent corner = least_corner(s_, f);
-    if (!(corner < goal_.floor)) return;
+    if (!(corner < goal_.floor)) return {};
     WaitingFace w{corner, s_.triangle(f), f, touched(f)};
     sort_corners(w.at);
-    queue_.push(w);
+    return w;
   }
-  void push_near() {
+  void push(std::uint32_t f) {
+    if (const auto w = waiting(f)) queue_.push(*w);
+  }
+  /// Faces at the vertices of those that have come, from this one on.
+  void push_near(std::uint32_t first) {
     std::vector<std::uint32_t> near;
-    for (const std::uint32_t f : changer_.last())
+    for (std::uint32_t f = first; f < s_.faces.size(); ++f)
       for (const std::uint32_t v : s_.faces[f].corners) near.insert(near.end(), s_.faces_at[v].begin(), s_.faces_at[v].end());
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -98,6 +106,69 @@ class Improving {
     held_.resize(s_.points.size(), false);
     held_.back() = true;
     if (--splits_left_ == 0) queue_.forget_trials();
+  }
+
+  /// A split and what follows from it, as one change: faces that have come are given to the changes that may cure them, worst
+  /// first, as long as less may come of it than the surface makes expect now. What has been made up to where it expects least
+  /// stays; the rest is taken back. As long as the surface makes fewer cells expect than the given one, these may be spent: then
+  /// poor ones weigh more. @returns did anything stay?
+  bool cure(const Trial& split) {
+    const auto first = static_cast<std::uint32_t>(s_.faces.size());
+    const bool may_spend = changer_.growth().cells < 0;
+    const std::int64_t weight = may_spend ? numbers::poor_weight_while_fewer : numbers::poor_weight;
+    const auto expected = [&] { return changer_.growth().weighed(weight); };
+    std::vector<WaitingFace> refused;
+    std::size_t kept = 0;
+    std::uint64_t splits_left = splits_left_;
+    std::int64_t least = expected();
+    const auto settle = [&](const Trial& trial) {
+      if (!changer_.settle(trial)) return false;
+      if (trial.change->kind == SurfaceChange::Kind::split) note_split();
+      if (expected() >= least || (may_spend && changer_.growth().cells > 0)) return true;
+      least = expected();
+      kept = changer_.made();
+      splits_left = splits_left_;
+      return true;
+    };
+    changer_.begin_transaction();
+    settle(split);
+    while (changer_.made() < numbers::most_in_transaction && expected() - may_be_won(first).weighed(weight) < least) {
+      const std::optional<WaitingFace> worst = worst_since(first, refused);
+      if (!worst) break;
+      Trial trial;
+      try_face(*worst, trial);
+      if (!settle(trial)) refused.push_back(*worst);
+    }
+    changer_.end_transaction(kept);
+    splits_left_ = splits_left;
+    held_.resize(s_.points.size(), false);
+    return kept > 0;
+  }
+  /// What the small corners of faces that have come since make expect: more cannot be won by what follows.
+  Expected may_be_won(std::uint32_t first) const {
+    const SurfaceView view(s_);
+    Expected sum;
+    for (std::uint32_t f = first; f < s_.faces.size(); ++f) {
+      if (!s_.faces[f].alive) continue;
+      for (const std::uint32_t v : s_.faces[f].corners) {
+        const Sector corner = sector_at(view, f, v);
+        if (corner.angle < goal_.floor) sum += expected_of(corner);
+      }
+    }
+    return sum;
+  }
+  /// The worst of these faces that nothing has been tried for in vain.
+  std::optional<WaitingFace> worst_since(std::uint32_t first, const std::vector<WaitingFace>& refused) const {
+    std::optional<WaitingFace> worst;
+    for (std::uint32_t f = first; f < s_.faces.size(); ++f) {
+      if (!s_.faces[f].alive) continue;
+      const std::optional<WaitingFace> w = waiting(f);
+      const bool was_refused = w && std::any_of(refused.begin(), refused.end(), [&](const WaitingFace& r) {
+                                 return r.face == w->face && r.touched == w->touched;
+                               });
+      if (w && !was_refused && (!worst || *worst < *w)) worst = w;
+    }
+    return worst;
   }
 
   /// @returns false if it does not wait any more

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "replace/numbers.hpp"
 #include "replace/shape.hpp"
 #include "replace/to_plc.hpp"
 #include "space/bulk.hpp"
@@ -13,9 +14,6 @@
 
 namespace pgdr::detail {
 namespace {
-
-/// Triangles with such an angle are too sharp for the usual bound of 15 degrees on dihedral angles.
-constexpr double sharp_degrees = 14.5;
 
 /// Twice its area.
 double area_of(const Point3& a, const Point3& b, const Point3& c) {
@@ -40,7 +38,7 @@ ResultMaker::ResultMaker(const Plc<3>& input, const Domain<3>& domain, const Cha
 
 void ResultMaker::measure(SurfaceReport& report, std::size_t when) const {
   const SurfaceComplex& c = s_.complex;
-  const HalfTangent sharp = half_tangent(sharp_degrees);
+  const HalfTangent sharp = half_tangent(numbers::poor_corner);
   HalfTangent least = wide_corner;
   std::set<std::uint32_t> groups;
   std::vector<double> heights;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "pgdr/predicates.hpp"
+#include "replace/numbers.hpp"
 #include "space/triangle.hpp"
 
 namespace pgdr::detail {
@@ -102,6 +103,7 @@ Sector sector_at(const SurfaceView& view, std::uint32_t face, std::uint32_t vert
       const std::uint32_t g = view.beyond(f, vertex, edge);
       if (g == face) {  // all round
         sector.angle = wide_corner;
+        sector.is_all_round = true;
         return sector;
       }
       if (g == no_index || view.face(g).group != group) break;
@@ -155,6 +157,48 @@ CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, Ha
       least = std::min(least, is.angle);
     }
   return out;
+}
+
+Expected expected_of(const Sector& corner) {
+  using namespace numbers;
+  static const HalfTangent poor = half_tangent(poor_corner);
+  if (corner.is_all_round) return {};
+  const HalfTangent t = corner.angle;
+  const double cotangent = t < 1 ? std::min((1 - t * t) / (2 * t), needle_cotangent) : 0.0;
+  const auto wide = static_cast<std::int64_t>(parts_of_cell * cells_of_width * cotangent);
+  return {static_cast<std::int64_t>(parts_of_cell * cells_of_corner) + wide, !corner.between_kept && t < poor ? wide : 0};
+}
+
+namespace {
+
+/// For all corners of facets at a vertex.
+Expected expected_at(const SurfaceView& view, std::uint32_t vertex) {
+  Expected sum;
+  std::vector<std::uint32_t> seen;  // faces of groups, whose corner has been added
+  view.each_face_of(vertex, [&](std::uint32_t f) {
+    if (std::find(seen.begin(), seen.end(), f) != seen.end()) return;
+    const Sector corner = sector_at(view, f, vertex);
+    seen.insert(seen.end(), corner.faces.begin(), corner.faces.end());
+    sum += expected_of(corner);
+  });
+  return sum;
+}
+
+}  // namespace
+
+Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change) {
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t f : change.gone) vertices.insert(vertices.end(), s.faces[f].corners.begin(), s.faces[f].corners.end());
+  for (const SurfaceFace& f : change.come) vertices.insert(vertices.end(), f.corners.begin(), f.corners.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const SurfaceView before(s), after(s, &change);
+  Expected growth;
+  for (const std::uint32_t v : vertices) {
+    growth += expected_at(after, v);
+    growth -= expected_at(before, v);
+  }
+  return growth;
 }
 
 namespace {

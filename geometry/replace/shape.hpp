@@ -48,6 +48,18 @@ class SurfaceView {
       if (has(a) && has(b)) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
     }
   }
+  /// Calls visit(f) for each face at a vertex.
+  template <class Visit>
+  void each_face_of(std::uint32_t v, const Visit& visit) const {
+    if (v < s_.points.size())
+      for (const std::uint32_t f : s_.faces_at[v])
+        if (!(after_ && after_->is_gone(f))) visit(f);
+    if (!after_) return;
+    for (std::uint32_t k = 0; k < after_->come.size(); ++k) {
+      const auto& c = after_->come[k].corners;
+      if (c[0] == v || c[1] == v || c[2] == v) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
+    }
+  }
   /// The other face at a plain edge.
   std::uint32_t beyond(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
     std::uint32_t other = no_index;
@@ -66,6 +78,7 @@ class SurfaceView {
 /// The faces of one group about a vertex that a face is one of.
 struct Sector {
   HalfTangent angle = wide_corner;
+  bool is_all_round = false;         ///< the vertex is inside of the group
   bool between_kept = false;         ///< both of its ends are kept edges: it is not counted
   std::vector<std::uint32_t> faces;  ///< all of it; empty: the face alone
 };
@@ -84,6 +97,30 @@ struct CornerChange {
   bool is_rim_fine = true;
 };
 CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, HalfTangent rim_floor);
+
+/// What a mesh is expected to have for corners of facets, in parts of a cell: whole numbers, whose sums do not depend on their
+/// order. The number of cells is, up to a factor, the integral of the -2nd power of the local feature size over the surface: of a
+/// corner the length of its sides over their distance.
+struct Expected {
+  std::int64_t cells = 0;
+  std::int64_t poor = 0;  ///< those of them that counted corners leave over a bound
+
+  Expected& operator+=(const Expected& o) {
+    cells += o.cells;
+    poor += o.poor;
+    return *this;
+  }
+  Expected& operator-=(const Expected& o) {
+    cells -= o.cells;
+    poor -= o.poor;
+    return *this;
+  }
+  /// Poor ones count as so many.
+  std::int64_t weighed(std::int64_t weight) const { return cells + (weight - 1) * poor; }
+};
+Expected expected_of(const Sector& corner);
+/// Of the corners that come with a change, less that of those that go, beyond its rim, too.
+Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change);
 
 /// Does it make no ridge that was not there: is the least cosine between normals across plain edges at least that of before, or
 /// `floor`?

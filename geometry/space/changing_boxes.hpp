@@ -33,6 +33,24 @@ class ChangingBoxes {
     adjust(leaf_of_[near]);
     count_change();
   }
+  /// Box i, which was taken out, is there again, about where box `near` is.
+  void put_back(std::uint32_t i, const Box<3>& box, std::uint32_t near) {
+    take_off_list(i);
+    boxes_[i] = box;
+    leaf_of_[i] = leaf_of_[near];
+    items_[leaf_of_[i] - leaves_].push_back(i);
+    adjust(leaf_of_[i]);
+    count_change();
+  }
+  /// Takes the last box away, with its number.
+  void remove_last() {
+    const auto last = static_cast<std::uint32_t>(boxes_.size() - 1);
+    take_off_list(last);
+    adjust(leaf_of_[last]);
+    boxes_.pop_back();
+    leaf_of_.pop_back();
+    count_change();
+  }
   const Box<3>& operator[](std::uint32_t i) const { return boxes_[i]; }
   /// Calls visit(i) once for every box that meets this one (borders count).
   template <class Visit>
@@ -100,6 +118,11 @@ class ChangingBoxes {
       nodes_[node] = nodes_[2 * node];
       nodes_[node].add(nodes_[2 * node + 1]);
     }
+  }
+  /// What is empty may be on no list.
+  void take_off_list(std::uint32_t i) {
+    auto& items = items_[leaf_of_[i] - leaves_];
+    items.erase(std::remove(items.begin(), items.end(), i), items.end());
   }
   void count_change() {
     if (++changes_ > least_changes + boxes_.size() / 4) build();

@@ -22,6 +22,7 @@ py::dict report_of(const SurfaceReport& r) {
   py::dict refused, distance, out;
   refused["angle"] = r.refused.angle;
   refused["fold"] = r.refused.fold;
+  refused["cells"] = r.refused.cells;
   refused["size"] = r.refused.size;
   refused["distance"] = r.refused.distance;
   refused["meets"] = r.refused.meets;
