@@ -184,7 +184,11 @@ bool meets_nothing(const ChangingSurface& s, const SurfaceChange& change) {
 bool keeps_gaps(const ChangingSurface& s, const SurfaceChange& change, double least) {
   const SurfaceComplex& c = s.complex;
   std::vector<Triangle> come;
-  for (const SurfaceFace& f : change.come) come.push_back(triangle_after(c, change, f));
+  std::vector<Box<3>> reaches;  // what is outside of is farther than `least`, with room for rounding
+  for (const SurfaceFace& f : change.come) {
+    come.push_back(triangle_after(c, change, f));
+    reaches.push_back(Box<3>::of(come.back()).widened(1.0625 * least));
+  }
   const auto touches_patch = [&](const std::array<std::uint32_t, 3>& corners) {
     return std::any_of(change.gone.begin(), change.gone.end(), [&](std::uint32_t g) {
       return c.has_corner(g, corners[0]) || c.has_corner(g, corners[1]) || c.has_corner(g, corners[2]);
@@ -192,7 +196,9 @@ bool keeps_gaps(const ChangingSurface& s, const SurfaceChange& change, double le
   };
   const auto is_kept = [&](const Triangle& t) {
     double is = least * least;
-    for (const Triangle& b : come) is = std::min(is, squared_distance_of(t, b));
+    const Box<3> box = Box<3>::of(t);
+    for (std::size_t k = 0; k < come.size(); ++k)
+      if (reaches[k].meets(box)) is = std::min(is, squared_distance_of(t, come[k]));
     if (is >= least * least) return true;
     double was = std::numeric_limits<double>::infinity();
     for (const std::uint32_t g : change.gone) was = std::min(was, squared_distance_of(t, c.triangle(g)));
