@@ -71,8 +71,8 @@ inline constexpr double wedge_height = 0.5, wedge_cosine = 0.2, wedge_beyond = 0
 /// the cells of one differed up to fourteenfold. With 8 in the place of 32 within 30 %, with 100 as with 32.
 inline constexpr double cells_of_corner = 1, cells_of_width = 2, needle_cotangent = 32;
 /// Of two equilateral triangles: what a contraction wins once the corners about it are as good as before, and what it may cost
-/// until then. With 0 a ball of needles at its poles keeps twice as many triangles; without the rule cells of a model rise by a
-/// half.
+/// until then. With 0 a ball of needles at its poles keeps 1,174 triangles in the place of 88; without the rule the cells of one
+/// model rise by a fifth.
 inline constexpr double cells_of_two_faces = 6 * (cells_of_corner + cells_of_width * 0.57735);
 /// Of a cell, what expected cells are counted in.
 inline constexpr double parts_of_cell = 1024;
