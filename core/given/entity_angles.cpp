@@ -160,7 +160,12 @@ class Meetings {
 
  private:
   const Point<D>& point(std::uint32_t p) const { return entities_.point(p); }
-  double off(const NamedEntity<D>& e, std::uint32_t p) const { return e.kind == EntityKind::segment ? 0 : entities_.slack(e, p); }
+  /// Of the mesh's own surface a facet may have been one of other triangles, through other points of its slab, for whom it was
+  /// named by.
+  double off(const NamedEntity<D>& e, std::uint32_t p) const {
+    if (e.kind == EntityKind::segment) return 0;
+    return entities_.are_own() ? e.off : entities_.slack(e, p);
+  }
 
   void meet_segments() {
     for (int i = 0; i < 2; ++i)
@@ -172,10 +177,10 @@ class Meetings {
       }
   }
 
-  /// @param below  exactly, where nothing is off. @param turned by how much the angle may be off, in radians
+  /// @param below  exactly, of these points. @param turned by how much the angle may be off, in radians, unless it is exact
   void take(bool is_exact, bool below, double angle, double turned, double limit) {
     const bool known = turned <= known_at_all;
-    if (is_exact ? !below : !known || (angle - turned) * in_degrees >= limit) return;
+    if (!below && (is_exact || !known || (angle - turned) * in_degrees >= limit)) return;
     out_.is_small = true;
     out_.small.push_back(known ? range(angle, turned) : AngleRange{0, limit});
   }
@@ -201,9 +206,9 @@ class Meetings {
       const double of_a = std::max({off(a_, ends[0]), off(a_, ends[1]), off(a_, c)});
       const double of_b = std::max({off(b_, ends[0]), off(b_, ends[1]), off(b_, d)});
       const auto u = normal(p, q, x, of_a), w = normal(p, q, y, of_b);
-      const bool is_exact = entities_.are_own() || (of_a == 0 && of_b == 0);
-      take(is_exact, is_exact && detail::dihedral_sign(p, q, x, y) == Sign::positive, angle_of<3>(u.along, w.along),
-           u.off + w.off, 90);
+      const bool is_exact = of_a == 0 && of_b == 0;
+      const bool below = (is_exact || entities_.are_own()) && detail::dihedral_sign(p, q, x, y) == Sign::positive;
+      take(is_exact, below, angle_of<3>(u.along, w.along), u.off + w.off, 90);
       out_.is_sharp = out_.is_sharp || (bounds_.largest_cosine < 1 && detail::dihedral_below(p, q, x, y, bounds_.largest_cosine));
     }
   }
@@ -239,8 +244,9 @@ class Meetings {
                                     std::min(angle_of<3>(n.along, x.along), std::numbers::pi - angle_of<3>(n.along, x.along)));
         turned = std::max(turned, x.off + n.off);
       }
-      const bool is_exact = entities_.are_own() || (of_ray == 0 && of_sector == 0);
-      const bool below = is_exact && (angle_below_90<3>(o, point(r), point(c)) || angle_below_90<3>(o, point(r), point(d)));
+      const bool is_exact = of_ray == 0 && of_sector == 0;
+      const bool below = (is_exact || entities_.are_own()) &&
+                         (angle_below_90<3>(o, point(r), point(c)) || angle_below_90<3>(o, point(r), point(d)));
       take(is_exact, below, angle, turned, 90);
     }
   }
