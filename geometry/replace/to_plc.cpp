@@ -5,6 +5,7 @@
 // that are almost flat. A polygon is one facet whatever the tolerance.
 #include "replace/to_plc.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -49,6 +50,13 @@ std::vector<std::uint32_t> vertices_of(const SurfaceComplex& s, const LoosePiece
   return out;
 }
 
+/// The polygon as it is from its least point on, by the way that leads to the lesser one of the two beside it: whichever way
+/// round a facet was given, it has its place.
+std::vector<std::uint32_t> either_way_round(std::vector<std::uint32_t> polygon) {
+  if (polygon.size() > 2 && polygon.back() < polygon[1]) std::reverse(polygon.begin() + 1, polygon.end());
+  return polygon;
+}
+
 /// By numbers of points in the order of coordinates; each polygon begins with its least point.
 void renumber(Facet& facet, const std::vector<std::uint32_t>& number) {
   for (auto& polygon : facet.polygons) {
@@ -58,20 +66,28 @@ void renumber(Facet& facet, const std::vector<std::uint32_t>& number) {
   // The seeds of holes stand in the order of their polygons.
   std::vector<std::pair<std::vector<std::uint32_t>, Point3>> holes;
   for (std::size_t k = 0; k < facet.holes.size(); ++k) holes.emplace_back(std::move(facet.polygons[k + 1]), facet.holes[k]);
-  std::sort(holes.begin(), holes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(holes, {}, [](const auto& hole) { return either_way_round(hole.first); });
   for (std::size_t k = 0; k < holes.size(); ++k) {
     facet.polygons[k + 1] = std::move(holes[k].first);
     facet.holes[k] = holes[k].second;
   }
-  std::sort(facet.polygons.begin() + 1 + static_cast<std::ptrdiff_t>(holes.size()), facet.polygons.end());
+  std::sort(facet.polygons.begin() + 1 + static_cast<std::ptrdiff_t>(holes.size()), facet.polygons.end(),
+            [](const auto& a, const auto& b) { return either_way_round(a) < either_way_round(b); });
 }
 
 void add_facets(const SurfaceComplex& s, const std::vector<std::uint32_t>& number, SurfacePlc& out) {
-  std::vector<std::pair<Facet, std::uint32_t>> facets;  // with one of its faces
+  struct Made {
+    std::vector<std::vector<std::uint32_t>> place;
+    Facet facet;
+    std::uint32_t face;  // one of its faces
+  };
+  std::vector<Made> facets;
   const auto add = [&](Facet facet, std::uint32_t face) {
     facet.marker = s.classes[s.faces[face].klass].marker;
     renumber(facet, number);
-    facets.emplace_back(std::move(facet), face);
+    std::vector<std::vector<std::uint32_t>> place;
+    for (const auto& polygon : facet.polygons) place.push_back(either_way_round(polygon));
+    facets.push_back({std::move(place), std::move(facet), face});
   };
   for (const auto& part : parts_of(s)) {
     std::optional<Facet> polygon;
@@ -85,10 +101,10 @@ void add_facets(const SurfaceComplex& s, const std::vector<std::uint32_t>& numbe
       add(Facet{.polygons = {{c[0], c[1], c[2]}}, .holes = {}, .marker = 0}, f);
     }
   }
-  std::sort(facets.begin(), facets.end(), [](const auto& a, const auto& b) { return a.first.polygons < b.first.polygons; });
-  for (auto& [facet, face] : facets) {
-    out.plc.facets.push_back(std::move(facet));
-    out.face_of_facet.push_back(face);
+  std::ranges::sort(facets, {}, &Made::place);
+  for (Made& made : facets) {
+    out.plc.facets.push_back(std::move(made.facet));
+    out.face_of_facet.push_back(made.face);
   }
 }
 
