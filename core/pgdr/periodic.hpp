@@ -76,6 +76,7 @@ std::vector<PeriodicSides<D>> stated_sides(const StatedPeriods& stated);
 
 /// Does a file say what is so?
 /// @param found  the pairs of all stated_sides() of its mesh
+/// @param stated  what the file says
 /// @throws UsageError bad_option, with the vertices, where it pairs others
 void require_as_stated(const std::vector<PeriodicPairs>& found, const StatedPeriods& stated);
 
