@@ -30,9 +30,10 @@ struct MapPath {
 
 /// A polygon by its rings, the outer one first; a line by its one path; or a point, by a path of one.
 struct MapPart {
-  enum class Kind : std::uint8_t { polygon, line, point };  ///< of geometries
-  Kind kind = Kind::polygon;                                ///< what it is
-  std::vector<MapPath> paths;                               ///< at least one
+  /// What it may be.
+  enum class Kind : std::uint8_t { polygon, line, point };
+  Kind kind = Kind::polygon;   ///< what it is
+  std::vector<MapPath> paths;  ///< at least one
 };
 
 /// A row of a table of geometries.
