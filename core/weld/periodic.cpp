@@ -129,11 +129,11 @@ class Pairing {
 template <int D>
 void require_rigid(const Motion<D>& motion) {
   constexpr double most = 1e-9;
-  const auto factor = [&](int row, int column) { return motion[static_cast<std::size_t>(row * (D + 1) + column)]; };
-  for (int i = 0; i < D; ++i)
-    for (int k = 0; k < D; ++k) {
+  const auto factor = [&](std::size_t row, std::size_t column) { return motion[row * (D + 1) + column]; };
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) {
       double product = 0;
-      for (int row = 0; row < D; ++row) product += factor(row, i) * factor(row, k);
+      for (std::size_t row = 0; row < D; ++row) product += factor(row, i) * factor(row, k);
       if (!(std::fabs(product - (i == k ? 1 : 0)) <= most)) refuse("a motion of periodic sides must keep lengths and angles");
     }
 }
@@ -142,7 +142,7 @@ template <int D>
 Point<D> moved(const Motion<D>& motion, const Point<D>& p) {
   Point<D> image;
   for (int i = 0; i < D; ++i) {
-    const double* const row = &motion[static_cast<std::size_t>(i * (D + 1))];
+    const double* const row = &motion[static_cast<std::size_t>(i) * (D + 1)];
     detail::ExactSum sum;
     for (int k = 0; k < D; ++k) sum.add_product(row[k], p[k]);
     sum.add_product(row[D], 1);
@@ -156,8 +156,9 @@ Motion<D> translation_between(const std::vector<Point<D>>& from, const std::vect
   const auto a = detail::Box<D>::of(from), b = detail::Box<D>::of(to);
   Motion<D> motion{};
   for (int i = 0; i < D; ++i) {
-    motion[static_cast<std::size_t>(i * (D + 1) + i)] = 1;
-    motion[static_cast<std::size_t>(i * (D + 1) + D)] = b.low[i] - a.low[i];
+    double* const row = &motion[static_cast<std::size_t>(i) * (D + 1)];
+    row[i] = 1;
+    row[D] = b.low[i] - a.low[i];
   }
   return motion;
 }
