@@ -392,4 +392,14 @@ TEST(ReplaceSurface, PointsKeepTheirData) {
     EXPECT_EQ(plc.facets[out.facet_of_input[f]].marker, out.plc.facets[f].marker);
 }
 
+// A point of no facet may stand on one, which has it in its triangles then (hellbot_magna.obj, the bed of a printer).
+TEST(ReplaceSurface, PointsOfNoFacetStay) {
+  Plc<3> plc = relief(12, [](double, double) { return 0; });
+  const Point3 on_top = plc.points[5 * 13 + 6], loose{on_top[0] + 0.013, on_top[1] + 0.017, on_top[2]};
+  plc.points.push_back(loose);
+  const ReplacedSurface out = replaced(plc, 0.05);
+  EXPECT_LT(out.plc.points.size(), plc.points.size());
+  EXPECT_EQ(std::ranges::count(out.plc.points, loose), 1);
+}
+
 }  // namespace pgdr::test_replace_surfaces

@@ -142,9 +142,10 @@ struct LoosePieces {
 };
 
 /// The surface of a Domain, with its curves and the orders of its vertices.
+/// @param input  that of the Domain
 /// @param tolerance  E
-SurfaceComplex make_complex(const Domain<3>& domain, std::span<const std::uint32_t> facet_bodies, double tolerance,
-                            double feature_angle, LoosePieces& loose, std::uint64_t& crease_count);
+SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle,
+                            LoosePieces& loose, std::uint64_t& crease_count);
 /// Finds the flat groups. @param flatness  as SurfaceComplex::flatness
 void find_groups(SurfaceComplex& surface, double flatness, double tolerance);
 

@@ -30,8 +30,8 @@ struct EdgeKind {
 
 class ComplexMaker {
  public:
-  ComplexMaker(const Domain<3>& domain, std::span<const std::uint32_t> bodies, double tolerance, double feature_angle)
-      : domain_(domain), bodies_(bodies), tolerance_(tolerance), feature_angle_(feature_angle) {}
+  ComplexMaker(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle)
+      : input_(input), domain_(domain), bodies_(input.facet_bodies), tolerance_(tolerance), feature_angle_(feature_angle) {}
 
   SurfaceComplex make(LoosePieces& loose, std::uint64_t& crease_count) {
     const auto points = domain_.points();
@@ -95,6 +95,17 @@ class ComplexMaker {
     const auto markers = domain_.point_markers();
     for (std::uint32_t v = 0; v < markers.size(); ++v)
       if (markers[v] != 0) pinned_[v] = true;
+    pin_points_of_no_facet();
+  }
+
+  /// Whoever gives one wants a vertex there, also where it stands on a facet, whose triangles have it then.
+  void pin_points_of_no_facet() {
+    std::vector<bool> is_of_facet(input_.points.size(), false);
+    for (const auto& facet : input_.facets)
+      for (const auto& polygon : facet.polygons)
+        for (const std::uint32_t p : polygon) is_of_facet[p] = true;
+    for (std::uint32_t p = 0; p < is_of_facet.size(); ++p)
+      if (!is_of_facet[p]) pinned_[domain_.point_of_input()[p]] = true;
   }
 
   /// Keeps all edges that are no creases. @returns the others
@@ -213,6 +224,7 @@ class ComplexMaker {
       if (!has_end[c]) s_.order[least[c]] = VertexOrder::fixed;
   }
 
+  const Plc<3>& input_;
   const Domain<3>& domain_;
   std::span<const std::uint32_t> bodies_;
   double tolerance_, feature_angle_;
@@ -225,9 +237,9 @@ class ComplexMaker {
 
 }  // namespace
 
-SurfaceComplex make_complex(const Domain<3>& domain, std::span<const std::uint32_t> facet_bodies, double tolerance,
-                            double feature_angle, LoosePieces& loose, std::uint64_t& crease_count) {
-  return ComplexMaker(domain, facet_bodies, tolerance, feature_angle).make(loose, crease_count);
+SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle,
+                            LoosePieces& loose, std::uint64_t& crease_count) {
+  return ComplexMaker(input, domain, tolerance, feature_angle).make(loose, crease_count);
 }
 
 }  // namespace pgdr::detail
