@@ -58,11 +58,11 @@ class Delaunay {
   CellId cell_at(VertexId v) const { return cell_at_[index(v)]; }
 
  private:
-  /// The points of an island along the curve, and the rounds of these; and its first simplex.
+  /// What is triangulated by itself.
   struct Island {
-    std::vector<std::uint32_t> given;  ///< its points, ascending
-    std::vector<std::uint32_t> along;  ///< places in the CurveOrder
-    std::array<std::uint32_t, D + 1> corners{};
+    std::vector<std::uint32_t> given;            ///< its points, ascending
+    std::vector<std::uint32_t> along;            ///< places in the CurveOrder
+    std::array<std::uint32_t, D + 1> corners{};  ///< of its first simplex
   };
   static std::vector<Island> islands_of(std::span<const std::uint32_t> island, const CurveOrder& order);
   static bool first_simplex(std::span<const Point<D>> points, Island& island);

@@ -63,9 +63,8 @@ template <int D>
 class NamedEntities {
  public:
   /// All must outlive it. @param sorted the vertices by their coordinates
-  /// @param own  if the input is the mesh's own surface. Then facets are where their subfacets are; but they may have been ones
-  /// of
-  ///   other triangles, within their slabs, for whom they were named by.
+  /// @param own  if the input is the mesh's own surface. Then facets are where their subfacets are; but whoever named them may
+  ///   have known them by other triangles, within their slabs.
   NamedEntities(const GivenTask<D>& task, const GivenMatch<D>& match, std::span<const std::uint32_t> sorted,
                 std::optional<OwnFacets> own = std::nullopt);
 
