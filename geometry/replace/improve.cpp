@@ -110,13 +110,10 @@ class Improving {
 
   /// A split and what follows from it, as one change: faces that have come are given to the changes that may cure them, worst
   /// first, as long as less may come of it than the surface makes expect now. What has been made up to where it expects least
-  /// stays; the rest is taken back. As long as the surface makes fewer cells expect than the given one, these may be spent: then
-  /// poor ones weigh more. @returns did anything stay?
+  /// stays; the rest is taken back. @returns did anything stay?
   bool cure(const Trial& split) {
     const auto first = static_cast<std::uint32_t>(s_.faces.size());
-    const bool may_spend = changer_.growth().cells < 0;
-    const std::int64_t weight = may_spend ? numbers::poor_weight_while_fewer : numbers::poor_weight;
-    const auto expected = [&] { return changer_.growth().weighed(weight); };
+    const auto expected = [&] { return changer_.growth().weighed(numbers::poor_weight); };
     std::vector<WaitingFace> refused;
     std::size_t kept = 0;
     std::uint64_t splits_left = splits_left_;
@@ -124,7 +121,7 @@ class Improving {
     const auto settle = [&](const Trial& trial) {
       if (!changer_.settle(trial)) return false;
       if (trial.change->kind == SurfaceChange::Kind::split) note_split();
-      if (expected() >= least || (may_spend && changer_.growth().cells > 0)) return true;
+      if (expected() >= least) return true;
       least = expected();
       kept = changer_.made();
       splits_left = splits_left_;
@@ -132,7 +129,8 @@ class Improving {
     };
     changer_.begin_transaction();
     settle(split);
-    while (changer_.made() < numbers::most_in_transaction && expected() - may_be_won(first).weighed(weight) < least) {
+    while (changer_.made() < numbers::most_in_transaction &&
+           expected() - may_be_won(first).weighed(numbers::poor_weight) < least) {
       const std::optional<WaitingFace> worst = worst_since(first, refused);
       if (!worst) break;
       Trial trial;
