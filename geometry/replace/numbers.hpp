@@ -78,8 +78,8 @@ inline constexpr double cells_of_two_faces = 6 * (cells_of_corner + cells_of_wid
 inline constexpr double parts_of_cell = 1024;
 /// Degrees: a counted corner that is smaller leaves cells over the usual bound of 15 degrees on dihedral angles.
 inline constexpr double poor_corner = 14.5;
-/// Such a cell weighs as much as so many others: chosen, not derived. (With 10 while the surface makes fewer cells expect than the
-/// given one 467 cells were left of the ten surfaces in docs/surface.md, without 452.)
+/// Such a cell weighs as much as so many others: chosen, not derived. With 10 while the surface makes fewer cells expect than
+/// the given one 467 cells were left of the ten surfaces in docs/surface.md, without 452.
 inline constexpr std::int64_t poor_weight = 5;
 /// Changes of one transaction: a cure takes 6 at the median, 13 at nine of ten. Longer ones walk on from needle to needle, over
 /// all of a surface.
