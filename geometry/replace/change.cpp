@@ -14,7 +14,6 @@ namespace {
 SurfaceFace with(SurfaceFace face, std::uint32_t u, std::uint32_t w) {
   for (std::uint32_t& c : face.corners)
     if (c == u) c = w;
-  face.changes = 0;
   return face;
 }
 

@@ -36,6 +36,7 @@ std::uint32_t SurfaceComplex::add_point(const Point3& p, VertexOrder o) {
 std::uint32_t SurfaceComplex::add_face(const SurfaceFace& face) {
   const auto f = static_cast<std::uint32_t>(faces.size());
   faces.push_back(face);
+  faces.back().born = ++births_;
   for (const std::uint32_t v : face.corners) faces_at[v].push_back(f);
   return f;
 }
@@ -46,7 +47,6 @@ void SurfaceComplex::remove_face(std::uint32_t f) {
     list.erase(std::find(list.begin(), list.end(), f));
   }
   faces[f].alive = false;
-  ++faces[f].changes;
 }
 
 void SurfaceComplex::put_back_face(std::uint32_t f) {

@@ -25,7 +25,7 @@ struct SurfaceFace {
   std::uint32_t klass = 0;         ///< of its marker and its body
   std::uint32_t group = no_index;  ///< the flat group
   bool alive = true;
-  std::uint32_t changes = 0;  ///< counts what happened to it
+  std::uint64_t born = 0;  ///< as the how manyth of all faces it has come; put back it is the same one
 };
 
 /// Seen from one end.
@@ -86,6 +86,15 @@ class SurfaceComplex {
     return no_index;
   }
   bool is_kept(std::uint32_t a, std::uint32_t b) const { return curve_of(a, b) != no_index; }
+  /// When the youngest face at a vertex was born. As long as it is the same, all faces at the vertex are: whatever takes some
+  /// away puts others there.
+  std::uint64_t youngest_at(std::uint32_t v) const {
+    std::uint64_t youngest = 0;
+    for (const std::uint32_t f : faces_at[v]) youngest = std::max(youngest, faces[f].born);
+    return youngest;
+  }
+  /// How many faces have been born, those that were taken back among them.
+  std::uint64_t births() const { return births_; }
   /// The faces at an edge.
   template <class Visit>
   void each_face_at(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
@@ -120,6 +129,9 @@ class SurfaceComplex {
   void drop_last_face();
   /// Takes the last point away, with its number. @pre nothing has it
   void drop_last_point();
+
+ private:
+  std::uint64_t births_ = 0;
 };
 
 /// Is one before the other, in an order of triangles that the numbers of points have no part in? By their corners in ascending

@@ -7,8 +7,13 @@
 // a contraction takes it away, which a split may only make possible. So a split is made with what follows from it, as one
 // transaction.
 #include <algorithm>
+#include <array>
+#include <mutex>
 #include <optional>
+#include <span>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "replace/ahead.hpp"
 #include "replace/coarsen.hpp"
@@ -30,6 +35,43 @@ struct WaitingFace {
     return corner != o.corner ? corner > o.corner : triangle_less(o.at, at);
   }
   bool is_same(const WaitingFace& o) const { return face == o.face && touched == o.touched; }
+};
+
+/// Vertices whose moves have been refused for corners and ridges, with the faces that decide of these. What a thread finds here
+/// it would find out itself, so that nothing depends on who was first. Any number of threads may ask and note at once.
+class RefusedMoves {
+ public:
+  using State = std::array<std::uint64_t, 2>;  ///< the youngest face at the vertex, and a hash of the youngest at those about it
+
+  static State state_about(const SurfaceComplex& s, std::uint32_t v) {
+    std::uint64_t hash = 0;
+    for (const std::uint32_t f : s.faces_at[v])
+      for (const std::uint32_t w : s.faces[f].corners) hash = (hash ^ s.youngest_at(w)) * 0x100000001b3u;
+    return {s.youngest_at(v), hash};
+  }
+
+  void note(std::uint32_t v, const State& state, std::span<const Verdict> verdicts) {
+    if (!std::all_of(verdicts.begin(), verdicts.end(), [](Verdict x) { return x == Verdict::angle || x == Verdict::fold; }))
+      return;
+    const std::lock_guard lock(mutex_);
+    refused_[v] = {state, {verdicts.begin(), verdicts.end()}};
+  }
+  /// Adds the verdicts noted for this state, if there are any.
+  bool add_refusals(std::uint32_t v, const State& state, Trial& trial) const {
+    const std::lock_guard lock(mutex_);
+    const auto at = refused_.find(v);
+    if (at == refused_.end() || at->second.state != state) return false;
+    trial.refused.insert(trial.refused.end(), at->second.verdicts.begin(), at->second.verdicts.end());
+    return true;
+  }
+
+ private:
+  struct Refused {
+    State state;
+    std::vector<Verdict> verdicts;
+  };
+  mutable std::mutex mutex_;
+  std::unordered_map<std::uint32_t, Refused> refused_;
 };
 
 class Improving {
@@ -58,7 +100,11 @@ class Improving {
       if (!is_waiting(w)) continue;
       const Trial trial = queue_.trial(w, try_it);
       const auto first = static_cast<std::uint32_t>(s_.faces.size());
-      if (trial.change && trial.change->kind == SurfaceChange::Kind::split ? !cure(trial) : !changer_.settle(trial)) continue;
+      const bool is_split = trial.change && trial.change->kind == SurfaceChange::Kind::split;
+      if (is_split ? !cure(trial) : !changer_.settle(trial)) {
+        note_refused(w.face);
+        continue;
+      }
       push_near(first);
       if (is_waiting(w)) push(w.face);  // a split farther away
     }
@@ -93,6 +139,20 @@ class Improving {
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t f : near) push(f);
+  }
+
+  /// All that has been tried for a face is in vain until a face that it would take away is another one.
+  void note_refused(std::uint32_t face) {
+    refused_at_.resize(s_.faces.size(), 0);
+    refused_at_[face] = s_.births();
+  }
+  std::uint64_t refused_at(std::uint32_t face) const { return face < refused_at_.size() ? refused_at_[face] : 0; }
+  bool is_newer_at(std::uint32_t v, std::uint64_t since) const { return s_.youngest_at(v) > since; }
+  /// Is one of the faces at an edge?
+  bool is_newer_at(std::uint32_t a, std::uint32_t b, std::uint64_t since) const {
+    bool any = false;
+    s_.each_face_at(a, b, [&](std::uint32_t f) { any = any || s_.faces[f].born > since; });
+    return any;
   }
 
   bool give_up() {
@@ -173,8 +233,12 @@ class Improving {
   bool try_face(const WaitingFace& w, Trial& trial) const {
     if (!is_waiting(w)) return false;
     changer_.read_around(s_.faces[w.face].corners, trial);
-    const Corners by_edge = by_opposite_edge(w.face);
-    if (!contract_edge(by_edge[1], by_edge[2], trial) && !flip_edges(by_edge, trial) && !move_corners(by_edge, trial))
+    const Corners c = by_opposite_edge(w.face);
+    const std::uint64_t since = refused_at(w.face);
+    const bool may_contract = is_newer_at(c[1], since) || is_newer_at(c[2], since);
+    if ((may_contract && contract_edge(c[1], c[2], trial)) || flip_edges(c, since, trial) || move_corners(c, since, trial))
+      return true;
+    if (is_newer_at(c[0], c[1], since) || is_newer_at(c[1], c[2], since) || is_newer_at(c[0], c[2], since))
       split_path(w.face, trial);
     return true;
   }
@@ -212,9 +276,11 @@ class Improving {
   }
 
   /// The longest edge first.
-  bool flip_edges(const Corners& c, Trial& trial) const {
+  bool flip_edges(const Corners& c, std::uint64_t since, Trial& trial) const {
     for (std::size_t k = 3; k-- > 0;) {
-      auto change = flip_between(c[(k + 1) % 3], c[(k + 2) % 3]);
+      const std::uint32_t a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+      if (!is_newer_at(a, b, since)) continue;
+      auto change = flip_between(a, b);
       if (change && passes(std::move(*change), trial)) return true;
     }
     return false;
@@ -223,11 +289,21 @@ class Improving {
     return lex_less(s_.at(b), s_.at(a)) ? flip(s_, b, a) : flip(s_, a, b);
   }
 
-  bool move_corners(const Corners& c, Trial& trial) const {
-    return std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return move_corner(v, trial); });
+  bool move_corners(const Corners& c, std::uint64_t since, Trial& trial) const {
+    return std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return is_newer_at(v, since) && move_corner(v, trial); });
   }
+  /// All faces at a vertex try to move it, to the same places. Where corners and ridges alone have refused these, which are those
+  /// of the faces about it, they do so again as long as these are the same.
   bool move_corner(std::uint32_t v, Trial& trial) const {
     if (s_.order[v] == VertexOrder::fixed) return false;
+    const RefusedMoves::State state = RefusedMoves::state_about(s_, v);
+    if (refused_moves_.add_refusals(v, state, trial)) return false;
+    const std::size_t before = trial.refused.size();
+    if (try_places(v, trial)) return true;
+    refused_moves_.note(v, state, std::span(trial.refused).subspan(before));
+    return false;
+  }
+  bool try_places(std::uint32_t v, Trial& trial) const {
     if (s_.order[v] == VertexOrder::on_curve) {
       const auto& kept = s_.kept_at[v];
       const Point3 middle = middle_of(s_.at(kept[0].other), s_.at(kept[1].other));
@@ -289,8 +365,10 @@ class Improving {
   const SurfaceComplex& s_;
   ChangeGoal goal_, split_goal_;
   std::uint64_t splits_left_;
-  std::vector<bool> held_;  // vertices that splits have made
+  std::vector<bool> held_;                 // vertices that splits have made
+  std::vector<std::uint64_t> refused_at_;  // of each face how many had been born when all was refused that was tried for it
   AheadQueue<WaitingFace> queue_;
+  mutable RefusedMoves refused_moves_;
 };
 
 }  // namespace

@@ -61,6 +61,24 @@ HalfTangent half_tangent(double degrees) {
 
 double degrees_of(HalfTangent t) { return 360 / std::numbers::pi * std::atan(t); }
 
+PatchIndex::PatchIndex(const SurfaceChange& change) : gone_(change.gone) {
+  std::sort(gone_.begin(), gone_.end());
+  std::vector<std::array<std::uint32_t, 2>> all;  // vertex, face
+  for (std::uint32_t k = 0; k < change.come.size(); ++k)
+    for (const std::uint32_t v : change.come[k].corners) all.push_back({v, k});
+  std::sort(all.begin(), all.end());
+  for (const auto& [vertex, face] : all) {
+    vertices_.push_back(vertex);
+    come_.push_back(face);
+  }
+}
+
+std::span<const std::uint32_t> PatchIndex::come_at(std::uint32_t v) const {
+  const auto first = std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin();
+  const auto last = std::upper_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin();
+  return std::span(come_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first));
+}
+
 bool SurfaceView::is_kept(std::uint32_t a, std::uint32_t b) const {
   if (after_) {
     const auto has = [&](const std::vector<SurfaceChange::Kept>& list) {
@@ -132,30 +150,57 @@ HalfTangent least_corner(const SurfaceComplex& s, std::uint32_t face) {
   return least;
 }
 
+namespace {
+
+/// The corners of the faces that go and that come, each once.
+std::vector<std::uint32_t> vertices_of(const SurfaceComplex& s, const SurfaceChange& change) {
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t f : change.gone) vertices.insert(vertices.end(), s.faces[f].corners.begin(), s.faces[f].corners.end());
+  for (const SurfaceFace& f : change.come) vertices.insert(vertices.end(), f.corners.begin(), f.corners.end());
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+/// Calls visit(corner) for each corner of a facet at a vertex that one of these faces has.
+template <class IsAsked, class Visit>
+void each_corner(const SurfaceView& view, std::uint32_t vertex, const IsAsked& is_asked, const Visit& visit) {
+  std::vector<std::uint32_t> seen;  // faces of groups, whose corner has been visited
+  view.each_face_of(vertex, [&](std::uint32_t f) {
+    if (!is_asked(f)) return;
+    const bool is_of_group = view.face(f).group != no_index;
+    if (is_of_group && std::find(seen.begin(), seen.end(), f) != seen.end()) return;
+    const Sector corner = sector_at(view, f, vertex);
+    seen.insert(seen.end(), corner.faces.begin(), corner.faces.end());
+    visit(corner);
+  });
+}
+
+}  // namespace
+
 CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, HalfTangent rim_floor) {
   const SurfaceView before(s), after(s, &change);
   CornerChange out;
-  for (const std::uint32_t f : change.gone)
-    for (const std::uint32_t v : s.faces[f].corners) {
-      const Sector was = sector_at(before, f, v);
+  const auto is_gone = [&](std::uint32_t f) { return after.is_gone(f); };
+  const auto is_new = [&](std::uint32_t f) { return after.is_new(f); };
+  for (const std::uint32_t v : vertices_of(s, change)) {
+    each_corner(before, v, is_gone, [&](const Sector& was) {
       HalfTangent& least = was.between_kept ? out.kept_gone : out.gone;
       least = std::min(least, was.angle);
       for (const std::uint32_t g : was.faces) {  // those that stay, beyond the rim
-        if (change.is_gone(g)) continue;
+        if (is_gone(g)) continue;
         const Sector is = sector_at(after, g, v);
-        if (is.between_kept || std::any_of(is.faces.begin(), is.faces.end(), [&](std::uint32_t h) { return after.is_new(h); }))
-          continue;
+        if (is.between_kept || std::any_of(is.faces.begin(), is.faces.end(), is_new)) continue;
         if (!(is.angle < was.angle)) continue;
         out.rim = std::min(out.rim, is.angle);
         out.is_rim_fine = out.is_rim_fine && is.angle >= std::min(was.angle, rim_floor);
       }
-    }
-  for (std::uint32_t k = 0; k < change.come.size(); ++k)
-    for (const std::uint32_t v : change.come[k].corners) {
-      const Sector is = sector_at(after, static_cast<std::uint32_t>(s.faces.size() + k), v);
+    });
+    each_corner(after, v, is_new, [&](const Sector& is) {
       HalfTangent& least = is.between_kept ? out.kept_come : out.come;
       least = std::min(least, is.angle);
-    }
+    });
+  }
   return out;
 }
 
@@ -174,27 +219,17 @@ namespace {
 /// For all corners of facets at a vertex.
 Expected expected_at(const SurfaceView& view, std::uint32_t vertex) {
   Expected sum;
-  std::vector<std::uint32_t> seen;  // faces of groups, whose corner has been added
-  view.each_face_of(vertex, [&](std::uint32_t f) {
-    if (std::find(seen.begin(), seen.end(), f) != seen.end()) return;
-    const Sector corner = sector_at(view, f, vertex);
-    seen.insert(seen.end(), corner.faces.begin(), corner.faces.end());
-    sum += expected_of(corner);
-  });
+  each_corner(
+      view, vertex, [](std::uint32_t) { return true; }, [&](const Sector& corner) { sum += expected_of(corner); });
   return sum;
 }
 
 }  // namespace
 
 Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change) {
-  std::vector<std::uint32_t> vertices;
-  for (const std::uint32_t f : change.gone) vertices.insert(vertices.end(), s.faces[f].corners.begin(), s.faces[f].corners.end());
-  for (const SurfaceFace& f : change.come) vertices.insert(vertices.end(), f.corners.begin(), f.corners.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const SurfaceView before(s), after(s, &change);
   Expected growth;
-  for (const std::uint32_t v : vertices) {
+  for (const std::uint32_t v : vertices_of(s, change)) {
     growth += expected_at(after, v);
     growth -= expected_at(before, v);
   }

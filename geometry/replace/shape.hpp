@@ -6,9 +6,12 @@
 // which are sums, products, quotients and roots of coordinates.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "replace/change.hpp"
@@ -25,10 +28,29 @@ HalfTangent half_tangent(double degrees);
 /// For reports.
 double degrees_of(HalfTangent t);
 
+/// Which faces go with a change and which come, vertex by vertex. Of a vertex where hundreds of faces meet both are many, and
+/// each is asked for at each of its corners.
+class PatchIndex {
+ public:
+  PatchIndex() = default;
+  explicit PatchIndex(const SurfaceChange& change);
+
+  bool is_gone(std::uint32_t f) const { return std::binary_search(gone_.begin(), gone_.end(), f); }
+  /// The numbers in `come` of the faces at a vertex, ascending.
+  std::span<const std::uint32_t> come_at(std::uint32_t v) const;
+
+ private:
+  std::vector<std::uint32_t> gone_;      // ascending
+  std::vector<std::uint32_t> vertices_;  // of the faces that come, ascending, each as often as it is a corner
+  std::vector<std::uint32_t> come_;      // beside these, the faces
+};
+
 /// A surface as it is, or as it would be after a change. Faces that would come are numbered after all others.
 class SurfaceView {
  public:
-  explicit SurfaceView(const SurfaceComplex& s, const SurfaceChange* after = nullptr) : s_(s), after_(after) {}
+  explicit SurfaceView(const SurfaceComplex& s, const SurfaceChange* after = nullptr) : s_(s), after_(after) {
+    if (after && std::max(after->come.size(), after->gone.size()) > few) index_.emplace(*after);
+  }
 
   const SurfaceFace& face(std::uint32_t f) const { return f < s_.faces.size() ? s_.faces[f] : after_->come[f - s_.faces.size()]; }
   const Point3& at(std::uint32_t v) const { return after_ ? place_after(s_, *after_, v) : s_.at(v); }
@@ -40,25 +62,16 @@ class SurfaceView {
     if (count(b) < count(a)) std::swap(a, b);
     if (count(a) > 0)
       for (const std::uint32_t f : s_.faces_at[a])
-        if (s_.has_corner(f, b) && !(after_ && after_->is_gone(f))) visit(f);
-    if (!after_) return;
-    for (std::uint32_t k = 0; k < after_->come.size(); ++k) {
-      const auto& c = after_->come[k].corners;
-      const auto has = [&c](std::uint32_t v) { return c[0] == v || c[1] == v || c[2] == v; };
-      if (has(a) && has(b)) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
-    }
+        if (s_.has_corner(f, b) && !is_gone(f)) visit(f);
+    each_that_comes(a, b, visit);
   }
   /// Calls visit(f) for each face at a vertex.
   template <class Visit>
   void each_face_of(std::uint32_t v, const Visit& visit) const {
     if (v < s_.points.size())
       for (const std::uint32_t f : s_.faces_at[v])
-        if (!(after_ && after_->is_gone(f))) visit(f);
-    if (!after_) return;
-    for (std::uint32_t k = 0; k < after_->come.size(); ++k) {
-      const auto& c = after_->come[k].corners;
-      if (c[0] == v || c[1] == v || c[2] == v) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
-    }
+        if (!is_gone(f)) visit(f);
+    each_that_comes(v, v, visit);
   }
   /// The other face at a plain edge.
   std::uint32_t beyond(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
@@ -69,10 +82,31 @@ class SurfaceView {
     return other;
   }
   bool is_new(std::uint32_t f) const { return f >= s_.faces.size(); }
+  bool is_gone(std::uint32_t f) const { return after_ && (index_ ? index_->is_gone(f) : after_->is_gone(f)); }
 
  private:
+  static constexpr std::size_t few = 16;  // all are looked at as soon as an index is asked
+
+  /// Those that have both corners.
+  template <class Visit>
+  void each_that_comes(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
+    if (!after_) return;
+    const auto visit_if = [&](std::uint32_t k) {
+      const auto& c = after_->come[k].corners;
+      const auto has = [&c](std::uint32_t v) { return c[0] == v || c[1] == v || c[2] == v; };
+      if (has(a) && has(b)) visit(static_cast<std::uint32_t>(s_.faces.size() + k));
+    };
+    if (index_) {
+      const auto of_a = index_->come_at(a), of_b = index_->come_at(b);
+      for (const std::uint32_t k : of_a.size() < of_b.size() ? of_a : of_b) visit_if(k);
+    } else {
+      for (std::uint32_t k = 0; k < after_->come.size(); ++k) visit_if(k);
+    }
+  }
+
   const SurfaceComplex& s_;
   const SurfaceChange* after_;
+  std::optional<PatchIndex> index_;
 };
 
 /// The faces of one group about a vertex that a face is one of.
