@@ -232,7 +232,7 @@ class InputInfo {
   void try_surface() requires(D == 3) {
     if (!a_.surface.tolerance) return;
     const Bounds<3> bounds = resolve<3>({}, smallest_proved_bound<3>());
-    const SurfaceStep step = replace_surface(plc_, a_.surface, a_.reading.tolerance, bounds, {});
+    const SurfaceStep step = replace_surface(plc_, a_.surface, a_.reading.tolerance, bounds, {}, {});
     set_surface(report_, step);
     if (!a_.quiet) print_surface(step);
     const Domain<3> domain(step.replaced.plc);

@@ -50,12 +50,6 @@ void require_ranks(const MeshArguments& a, const Ranks& ranks) {
     throw UsageError({.code = Errc::bad_option, .message = "--voronoi is for one process"});
 }
 
-void refuse_with_periodic(const SurfaceArguments& surface) {
-  if (!surface.tolerance) return;
-  throw UsageError({.code = Errc::bad_option,
-                    .message = "--surface-tolerance is not for cells that repeat: it and --periodic exclude each other"});
-}
-
 /// One run: read, mesh, write, print. Each step puts into the report what it knows.
 template <int D>
 class MeshRun {
@@ -146,7 +140,6 @@ class MeshRun {
 
   Plc<D> read_old_mesh() {
     old_.emplace(input_.only(), !a_.remesh->no_fields || !a_.bounds.size_field.empty());
-    if (!old_->sides().empty()) refuse_with_periodic(a_.surface);
     bounds_.size = smallest<D>({bounds_.size, old_->sizes(a_.bounds), old_->sizes_of_cells(a_.remesh->cell_bounds)});
     options_.size = bounds_.size;
     report_.set("remeshed", true);
@@ -193,7 +186,8 @@ class MeshRun {
     if constexpr (D == 3)
       if (periodic_) name_as_given(*periodic_, result_.mesh, result_.reasons);
     if constexpr (D == 3)
-      if (surface_) name_facets_by_places(plc_, result_.reasons);  // the input does not have these facets
+      if (surface_)  // the input does not have these facets
+        name_facets_by_places(periodic_ ? surface_->replaced.plc : plc_, result_.reasons);
     if (old_) {
       old_->rename(result_.reasons);
       fields_ = old_->transferred(a_, result_.mesh, result_.warnings);
@@ -207,10 +201,14 @@ class MeshRun {
     if (!a_.quiet) print_warnings(result_.warnings);
   }
 
+  bool has_sides_of_file() const { return a_.periodic.empty() && old_; }
+  std::vector<PeriodicSides<D>> asked_sides() const {
+    return has_sides_of_file() ? old_->sides() : periodic_sides<D>(a_.periodic, plc_.names);
+  }
+
   /// Divides sides that are to correspond.
   void make_sides() {
-    const bool of_file = a_.periodic.empty() && old_;
-    const std::vector<PeriodicSides<D>> sides = of_file ? old_->sides() : periodic_sides<D>(a_.periodic, plc_.names);
+    const std::vector<PeriodicSides<D>> sides = asked_sides();
     if (sides.empty()) return;
     const Stopwatch watch;
     if constexpr (D == 3) {  // facets have other numbers then
@@ -218,11 +216,13 @@ class MeshRun {
       options_.prepared = {};
     }
     periodic_ = make_periodic(plc_, sides, options_);
+    if constexpr (D == 3)
+      if (surface_) surface_->replaced.plc = std::move(plc_);
     plc_ = periodic_->plc;
     sides_ = periodic_->sides;
     if (periodic_->keep_boundary) options_.kept_markers = periodic_->kept_markers;
     options_.keep_boundary = options_.keep_boundary || periodic_->keep_boundary;
-    report_.set("periodic_sides", of_file ? flags_of(sides) : a_.periodic);
+    report_.set("periodic_sides", has_sides_of_file() ? flags_of(sides) : a_.periodic);
     report_.set("periodic_rounds", periodic_->rounds);
     if (a_.time_limit)
       options_.time_limit = std::chrono::duration<double>(std::max(0.0, options_.time_limit->count() - watch.seconds()));
@@ -237,7 +237,9 @@ class MeshRun {
     std::optional<Deadline> half;
     if (a_.time_limit)
       half.emplace(std::chrono::duration<double>(std::max(0.0, *a_.time_limit - total_.seconds()) / 2), options_.stop);
-    surface_ = replace_surface(plc_, arguments, a_.reading.tolerance, bounds_, half ? half->token() : options_.stop);
+    std::vector<int> fixed;  // what one side became the other would have to become, too
+    for (const PeriodicSides<3>& sides : asked_sides()) fixed.insert(fixed.end(), {sides.from, sides.to});
+    surface_ = replace_surface(plc_, arguments, a_.reading.tolerance, bounds_, fixed, half ? half->token() : options_.stop);
     plc_ = std::move(surface_->replaced.plc);
     set_surface(report_, *surface_);
     if (!a_.quiet && ranks_.is_first()) print_surface(*surface_);
@@ -406,7 +408,6 @@ int mesh(const MeshArguments& arguments, Report& report, const Ranks& ranks) {
   require_3d(arguments.surface, dimension);
   if (!arguments.periodic.empty() && ranks.transport())
     throw UsageError({.code = Errc::bad_option, .message = "--periodic is for one process"});
-  if (!arguments.periodic.empty()) refuse_with_periodic(arguments.surface);
   report.set("dimension", dimension);
   return dimension == 2 ? run<2>(arguments, input, report, ranks, total) : run<3>(arguments, input, report, ranks, total);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "console.hpp"
@@ -46,12 +47,13 @@ void require_3d(const SurfaceArguments& arguments, int dimension) {
 }
 
 SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments, std::optional<double> tolerance,
-                            const Bounds<3>& bounds, const std::stop_token& stop) {
+                            const Bounds<3>& bounds, std::vector<int> fixed_markers, const std::stop_token& stop) {
   SurfaceOptions options;
   options.tolerance = surface_tolerance(*arguments.tolerance, plc, tolerance);
   require_fine_surface_tolerance(options.tolerance, plc);
   if (arguments.feature_angle) options.feature_angle = *arguments.feature_angle;
   options.wanted_corner = std::max(usual_wanted_corner, bounds.min_dihedral.value_or(0) + headroom);
+  options.fixed_markers = std::move(fixed_markers);
   options.stop = stop;
   options.size = size_of(bounds);
   SurfaceStep step{*arguments.tolerance, pgdr::replace_surface(plc, options), surface_counts(plc), {}};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "bounds.hpp"
 #include "options.hpp"
@@ -28,9 +29,10 @@ void require_3d(const SurfaceArguments& arguments, int dimension);
 
 /// Writes the surface, too, where that is asked for.
 /// @param tolerance  that of the flag --tolerance
+/// @param fixed_markers  of SurfaceOptions
 /// @throws as pgdr::replace_surface and write_surface
 SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments, std::optional<double> tolerance,
-                            const Bounds<3>& bounds, const std::stop_token& stop);
+                            const Bounds<3>& bounds, std::vector<int> fixed_markers, const std::stop_token& stop);
 
 /// The keys `surface_tolerance` and `surface`.
 void set_surface(Report& report, const SurfaceStep& step);

@@ -27,7 +27,8 @@ struct SurfaceOptions {
   /// The size that a mesh is to have here: no edge is made longer than twice the size at its ends. Empty: E alone limits. Several
   /// threads may call it at once, as they do a SizingField: it has to be the same for the same point whoever asks.
   std::function<double(const Point3&)> size;
-  std::stop_token stop;  ///< ends the step after any change, with a valid surface
+  std::vector<int> fixed_markers;  ///< facets with these stay as they are, with all of their points
+  std::stop_token stop;            ///< ends the step after any change, with a valid surface
 };
 
 /// What was done.

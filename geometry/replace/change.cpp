@@ -77,7 +77,7 @@ std::optional<SurfaceChange> contraction(const SurfaceComplex& s, std::uint32_t 
 std::optional<SurfaceChange> flip(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b) {
   if (s.is_kept(a, b)) return {};
   auto faces = s.faces_of_edge(a, b);
-  if (faces.size() != 2) return {};
+  if (faces.size() != 2 || s.is_fixed(faces[0])) return {};
   // The new faces run round as the first one does, which no number may say.
   if (triangle_less(s.triangle(faces[1]), s.triangle(faces[0]))) std::swap(faces[0], faces[1]);
   const std::uint32_t c = corner_beside(s.faces[faces[0]].corners, a, b), d = corner_beside(s.faces[faces[1]].corners, a, b);

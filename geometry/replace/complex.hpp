@@ -14,6 +14,7 @@
 
 #include "numbers/vectors.hpp"
 #include "pgdr/domain.hpp"
+#include "pgdr/surface.hpp"
 
 namespace pgdr::detail {
 
@@ -38,6 +39,7 @@ struct KeptEdge {
 struct SurfaceClass {
   int marker = 0;
   std::uint32_t body = 0;
+  bool is_fixed = false;  ///< no face of it ever goes
 };
 
 /// What the edges of one curve are.
@@ -86,6 +88,7 @@ class SurfaceComplex {
     return no_index;
   }
   bool is_kept(std::uint32_t a, std::uint32_t b) const { return curve_of(a, b) != no_index; }
+  bool is_fixed(std::uint32_t f) const { return classes[faces[f].klass].is_fixed; }
   /// When the youngest face at a vertex was born. As long as it is the same, all faces at the vertex are: whatever takes some
   /// away puts others there.
   std::uint64_t youngest_at(std::uint32_t v) const {
@@ -156,7 +159,7 @@ struct LoosePieces {
 /// The surface of a Domain, with its curves and the orders of its vertices.
 /// @param input  that of the Domain
 /// @param tolerance  E
-SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle,
+SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, const SurfaceOptions& options,
                             LoosePieces& loose, std::uint64_t& crease_count);
 /// Finds the flat groups. @param flatness  as SurfaceComplex::flatness
 void find_groups(SurfaceComplex& surface, double flatness, double tolerance);

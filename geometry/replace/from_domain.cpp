@@ -30,8 +30,8 @@ struct EdgeKind {
 
 class ComplexMaker {
  public:
-  ComplexMaker(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle)
-      : input_(input), domain_(domain), bodies_(input.facet_bodies), tolerance_(tolerance), feature_angle_(feature_angle) {}
+  ComplexMaker(const Plc<3>& input, const Domain<3>& domain, double tolerance, const SurfaceOptions& options)
+      : input_(input), domain_(domain), bodies_(input.facet_bodies), tolerance_(tolerance), options_(options) {}
 
   SurfaceComplex make(LoosePieces& loose, std::uint64_t& crease_count) {
     const auto points = domain_.points();
@@ -43,7 +43,7 @@ class ComplexMaker {
     add_faces();
     collect_explicit(loose);
     const std::vector<Edge> candidates = keep_edges();
-    for (const Edge& e : find_creases(s_, candidates, tolerance_, feature_angle_)) {
+    for (const Edge& e : find_creases(s_, candidates, tolerance_, options_.feature_angle)) {
       keep(e, {.is_explicit = false, .marker = 0, .is_crease = true});
       ++crease_count;
     }
@@ -67,7 +67,8 @@ class ComplexMaker {
       for (std::size_t k = 0; k < facets[f].triangle_count; ++k) numbers.emplace(class_of(f, k), 0);
     for (auto& [klass, number] : numbers) {
       number = static_cast<std::uint32_t>(s_.classes.size());
-      s_.classes.push_back({klass.first, klass.second});
+      const auto& fixed = options_.fixed_markers;
+      s_.classes.push_back({klass.first, klass.second, std::find(fixed.begin(), fixed.end(), klass.first) != fixed.end()});
     }
     for (EntityId f = 0; f < facets.size(); ++f) {
       const auto triangles = domain_.triangles(f);
@@ -96,6 +97,9 @@ class ComplexMaker {
     for (std::uint32_t v = 0; v < markers.size(); ++v)
       if (markers[v] != 0) pinned_[v] = true;
     pin_points_of_no_facet();
+    for (std::uint32_t f = 0; f < s_.faces.size(); ++f)
+      if (s_.is_fixed(f))
+        for (const std::uint32_t v : s_.faces[f].corners) pinned_[v] = true;
   }
 
   /// Whoever gives one wants a vertex there, also where it stands on a facet, whose triangles have it then.
@@ -180,9 +184,9 @@ class ComplexMaker {
   bool is_corner(std::uint32_t v) const {
     const Point3 &p = s_.at(v), &a = s_.at(s_.kept_at[v][0].other), &b = s_.at(s_.kept_at[v][1].other);
     const double least = numbers::corner_edges * tolerance_;
-    if (feature_angle_ >= 180 || !(distance(p, a) > least) || !(distance(p, b) > least)) return false;
+    if (options_.feature_angle >= 180 || !(distance(p, a) > least) || !(distance(p, b) > least)) return false;
     const auto in = difference(p, a), out = difference(b, p);
-    return dot(in, out) < claimed_cosine(feature_angle_) * std::sqrt(dot(in, in) * dot(out, out));
+    return dot(in, out) < claimed_cosine(options_.feature_angle) * std::sqrt(dot(in, in) * dot(out, out));
   }
 
   /// Kinds become curves: edges of one kind that hang together across vertices of order 1. A curve without an end gets one.
@@ -227,7 +231,8 @@ class ComplexMaker {
   const Plc<3>& input_;
   const Domain<3>& domain_;
   std::span<const std::uint32_t> bodies_;
-  double tolerance_, feature_angle_;
+  double tolerance_;
+  const SurfaceOptions& options_;
   SurfaceComplex s_;
   std::vector<EntityId> facet_of_face_;
   std::vector<bool> pinned_;
@@ -237,9 +242,9 @@ class ComplexMaker {
 
 }  // namespace
 
-SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, double feature_angle,
+SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, const SurfaceOptions& options,
                             LoosePieces& loose, std::uint64_t& crease_count) {
-  return ComplexMaker(input, domain, tolerance, feature_angle).make(loose, crease_count);
+  return ComplexMaker(input, domain, tolerance, options).make(loose, crease_count);
 }
 
 }  // namespace pgdr::detail

@@ -122,6 +122,7 @@ class Improving {
   bool is_waiting(const WaitingFace& w) const { return s_.faces[w.face].alive && w.touched == touched(w.face); }
   /// A face, if it has a corner that is smaller than wanted.
   std::optional<WaitingFace> waiting(std::uint32_t f) const {
+    if (s_.is_fixed(f)) return {};
     const HalfTangent corner = least_corner(s_, f);
     if (!(corner < goal_.floor)) return {};
     WaitingFace w{corner, s_.triangle(f), f, touched(f)};
@@ -333,7 +334,9 @@ class Improving {
       const Corners c = by_opposite_edge(f);
       std::uint32_t a = c[0], b = c[1];
       if (lex_less(s_.at(b), s_.at(a))) std::swap(a, b);
-      if (distance(s_.at(a), s_.at(b)) < numbers::shortest_split * goal_.distance) return false;
+      bool is_fixed = false;
+      s_.each_face_at(a, b, [&](std::uint32_t g) { is_fixed = is_fixed || s_.is_fixed(g); });
+      if (is_fixed || distance(s_.at(a), s_.at(b)) < numbers::shortest_split * goal_.distance) return false;
       const Verdict verdict = changer_.judge(split(s_, a, b, place_on(a, b)), split_goal_, trial);
       if (verdict == Verdict::yes) return true;
       if (verdict != Verdict::angle || s_.is_kept(a, b)) return false;

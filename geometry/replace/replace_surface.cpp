@@ -79,7 +79,7 @@ ReplacedSurface replaced(const Plc<3>& input, const SurfaceOptions& options) {
   report.used = used_tolerance(domain, options.tolerance);
   report.feature_angle = options.feature_angle;
   detail::LoosePieces loose;
-  auto complex = detail::make_complex(input, domain, report.used, options.feature_angle, loose, report.creases);
+  auto complex = detail::make_complex(input, domain, report.used, options, loose, report.creases);
   const double diagonal = detail::diagonal_of(detail::Box<3>::of(domain.points()));
   detail::find_groups(complex, std::max(domain.tolerance(), std::min(numbers::flat_part * diagonal, report.used / 2)),
                       report.used);

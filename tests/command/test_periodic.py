@@ -195,7 +195,26 @@ class PeriodicCells(Case):
             self.assertEqual(len(finer["periodic"]), 3)
             self.assertGreater(len(finer["periodic"][0]["points"]), 2 * len(pairs[0]))
             self.pgdr("check", self.output, "--input", old, "--reasons", self.report, expect=0)
-            self.assertIn("exclude each other", self.pgdr("remesh", old, "-o", self.output, "--surface-tolerance", "1%", expect=2).stderr)
+
+    def test_another_surface(self):
+        """Spheres get coarser, sides stay as they are: so they correspond as before."""
+        chance = random.Random(3)
+        model = self.file("cell.poly", periodic_cells.Cell(periodic_cells.spheres_of(chance, 4), times=4).poly())
+        given, tolerance, meshes = self.meshed(model)["cells"], ("--surface-tolerance", "0.3%"), set()
+        for threads in (1, 2, 8):
+            self.mesh(model, *self.SIDES, *tolerance, "--threads", threads, "--report", self.report, expect=0)
+            meshes.add(self.output.read_bytes())
+        report = self.json()
+        before, after = report["surface_tolerance"]["triangles"]
+        self.assertLess(2 * after, before)
+        self.assertLess(report["cells"], given)
+        self.assertEqual(len(meshes), 1)
+        checked = self.pgdr("check", self.output, "--input", model, "--reasons", self.report, *tolerance, expect=0).stdout
+        self.assertEqual(checked.count("\nperiodic "), 3)
+        old, self.output = self.output, self.folder / "again.vtu"
+        self.pgdr("remesh", old, "-o", self.output, "--surface-tolerance", "0.5%", "--report", self.report, expect=0)
+        self.assertEqual(len(self.json()["periodic"]), 3)
+        self.pgdr("check", self.output, "--input", old, "--reasons", self.report, "--surface-tolerance", "0.5%", expect=0)
 
     def test_false_files(self):
         """A pair that is another in the file than in the mesh."""
@@ -226,7 +245,6 @@ class PeriodicCells(Case):
         self.assertIn("FAILED", self.pgdr("check", self.output, *self.SIDES, expect=6).stdout)
         self.assertIn("--periodic takes a motion of 12 numbers in 3D",
                       self.mesh(model, "--periodic", "1=2:1,0,1,0,1,0", expect=2).stderr)
-        self.assertIn("exclude each other", self.mesh(model, *self.SIDES, "--surface-tolerance", "1%", expect=2).stderr)
 
     def test_limits(self):
         """A mesh that a limit has ended has no pairs, and what is ahead is said of the facets as given."""

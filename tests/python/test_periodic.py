@@ -100,6 +100,10 @@ class Periodic(unittest.TestCase):
         self.assertLess(fold.shape[1], len(r.points) - 20)
         self.assertLess(np.ptp(w), 1e-12)
 
+        other = pgdr.mesh(plc, size=0.25, periodic=[(1, 2), (3, 4), (5, 6)], surface_tolerance="1%")  # all of it are sides
+        self.assertTrue(other.check(plc))
+        self.assertEqual(len(other.periodic), 3)
+
         points = [[x, y, z] for x in (0, 0.5, 1) for y in (0, 1) for z in (0, 1)]
         facets, markers = [[0, 1, 3, 2], [4, 5, 7, 6], [8, 9, 11, 10]], [1, 9, 2]
         for half in (0, 4):

@@ -54,7 +54,8 @@ py::dict report_of(const SurfaceReport& r) {
 }
 
 /// (Plc, facet of the input of each facet, report). `tolerance`: as the command's.
-py::tuple replace(const Plc<3>& plc, const std::string& tolerance, double feature_angle, double wanted_corner) {
+py::tuple replace(const Plc<3>& plc, const std::string& tolerance, double feature_angle, double wanted_corner,
+                  const std::vector<int>& fixed_markers) {
   ReplacedSurface made;
   std::shared_ptr<Plc<3>> other;
   run_watched([&](const std::stop_token& stop) {
@@ -63,6 +64,7 @@ py::tuple replace(const Plc<3>& plc, const std::string& tolerance, double featur
     tool::require_fine_surface_tolerance(options.tolerance, plc);
     options.feature_angle = feature_angle;
     options.wanted_corner = wanted_corner;
+    options.fixed_markers = fixed_markers;
     options.stop = stop;
     made = replace_surface(plc, options);
     other = std::make_shared<Plc<3>>(std::move(made.plc));

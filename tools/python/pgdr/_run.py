@@ -190,11 +190,11 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
         plc = plc.with_tolerance(tolerance)
     dimension = plc.dimension
     surface: Optional[Dict[str, Any]] = None
-    if surface_tolerance is not None and len(periodic) > 0:
-        raise usage("periodic and surface_tolerance exclude each other")
+    sides = sides_of(periodic, dimension)
     if surface_tolerance is not None:
         wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
-        plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted)
+        plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted,
+                                          fixed_markers=[marker for side in sides for marker in side[:2]])
     size, size_unit = size_unit_of(size, edge_length, size_unit)
     size = None if size is None else in_unit(size, size_unit, dimension)
     region_sizes = None if region_sizes is None else {label: in_unit(one, size_unit, dimension) for label, one in
@@ -221,7 +221,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if schedule is not None:
         options.set_schedule(_arguments.word("schedule", schedule, ("reproducible", "uniform", "greedy")))
     asked = _select(options, selector)
-    sides, given_points = sides_of(periodic, dimension), len(plc.points)
+    given, given_points = plc, len(plc.points)
     periodic_input: Union[None, _pgdr.PeriodicInput2, _pgdr.PeriodicInput3] = None
     if sides:
         with WORK:
@@ -234,15 +234,15 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     except DiagnosedError as error:
         _add_what_helps(error, plc)
         raise
-    if surface is not None and isinstance(made._core, _pgdr.Mesh3) and isinstance(plc._core, _pgdr.Plc3):
-        _pgdr.name_facets_by_places(made._core, plc._core)  # the input does not have these facets
-        made._facts["surface"] = surface
     if sides:
         made._facts["given_points"] = given_points
         if isinstance(periodic_input, _pgdr.PeriodicInput3):
             periodic_input.name_as_given(made._core)
         if made.stop == "finished":
             made._facts["periodic"] = paired(made._core, sides, 2 * made.statistics["tolerance"])
+    if surface is not None and isinstance(made._core, _pgdr.Mesh3) and isinstance(given._core, _pgdr.Plc3):
+        _pgdr.name_facets_by_places(made._core, given._core)  # the input does not have these facets
+        made._facts["surface"] = surface
     if kept:
         made._facts["kept_boundary"] = kept
     made._facts["conforming_delaunay"] = conforming_delaunay and made.stop == "finished"

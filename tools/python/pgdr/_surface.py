@@ -3,7 +3,7 @@
 """Another surface within a tolerance."""
 from __future__ import annotations
 
-from typing import Any, Dict, NamedTuple, Union
+from typing import Any, Dict, NamedTuple, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +23,7 @@ class ReplacedSurface(NamedTuple):
 
 
 def replace_surface(plc: Plc, tolerance: Union[float, str], *, feature_angle: float = 40.0,
-                    wanted_corner: float = 25.0) -> ReplacedSurface:
+                    wanted_corner: float = 25.0, fixed_markers: Sequence[int] = ()) -> ReplacedSurface:
     """3D: another surface in the place of the input's, without its needles, within a distance of it both ways and marker by marker,
     with its topology, creases, segments and volumes (docs/surface.md). Any thread; other Python threads run meanwhile.
 
@@ -36,6 +36,8 @@ def replace_surface(plc: Plc, tolerance: Union[float, str], *, feature_angle: fl
         Degrees: where normals differ by more is a crease, which stays; 180: there are none.
     wanted_corner : float
         Degrees: smaller angles of facets are made larger, where that is possible.
+    fixed_markers : sequence of int
+        Facets with these markers stay as they are, with all of their points.
 
     Raises
     ------
@@ -58,5 +60,6 @@ def replace_surface(plc: Plc, tolerance: Union[float, str], *, feature_angle: fl
     text = tolerance if isinstance(tolerance, str) else repr(_arguments.number("tolerance", tolerance))
     with WORK:
         core, facets, report = _pgdr.replace_surface(plc._core, text, _arguments.number("feature_angle", feature_angle),
-                                                     _arguments.number("wanted_corner", wanted_corner))
+                                                     _arguments.number("wanted_corner", wanted_corner),
+                                                     [_arguments.whole_number("a marker", marker, -2**31, 2**31 - 1) for marker in fixed_markers])
     return ReplacedSurface(Plc._of(core), np.array(facets, dtype=np.int64), report)
