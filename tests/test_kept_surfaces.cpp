@@ -11,8 +11,10 @@
 
 #include "domain_plcs.hpp"
 #include "given_names.hpp"
+#include "output/simplices.hpp"
 #include "parallel_support.hpp"
 #include "pgdr/kept_edges.hpp"
+#include "pgdr/predicates.hpp"
 
 namespace pgdr::test_kept_surfaces {
 
@@ -175,6 +177,41 @@ TEST(KeptSurface, ReasonsDoNotHoldWhereNothingWasKept) {
   result.reasons = claims;
   options.radius_edge_bound = 0.1;  // all cells are over this
   EXPECT_EQ(checked(plc, options, result).count(CheckFinding::Kind::bad_reason), result.mesh.cells.size());
+}
+
+/// Cells between a coarse kept surface and finer ones inside have no edge on it. What takes a cell over the ratio away, a point
+/// at its circumcentre or its off-centre, would have to split a kept triangle: check verifies of that triangle that it would.
+TEST(KeptSurface, ReasonsOfCellsBehindWhatWasKept) {
+  const auto doubled = [](Plc<3> plc) {
+    for (Point3& p : plc.points)
+      for (double& x : p.x) x *= 2;
+    return plc;
+  };
+  RefineOptions<3> options;
+  options.size = 0.15;
+  options.keep_boundary = true;
+  const Plc<3> model = triangles_of(doubled(cube()));
+  RefineResult<3> result = kept(model, options);
+  const OutputMesh<3>& mesh = result.mesh;
+  const std::uint64_t unexplained = checked(model, options, result).unexplained;
+  EXPECT_EQ(unexplained, result.optimization.unexplained);
+  EXPECT_LE(unexplained, mesh.cells.size() / 100);
+  std::set<std::uint32_t> on_boundary;
+  for (const auto& f : mesh.subfacets) on_boundary.insert(f.vertices.begin(), f.vertices.end());
+  std::uint64_t behind = 0;
+  for (PoorReason& r : result.reasons) {
+    const auto& cell = mesh.cells[r.cell];
+    const Simplex<3> s = corners_of(mesh, r.cell);
+    const auto on_it = std::count_if(cell.begin(), cell.end(), [&](std::uint32_t v) { return on_boundary.contains(v); });
+    if (r.code != PoorReason::Code::kept_boundary || on_it > 1) continue;
+    if (dihedral_within(s, result.optimization.claimed_cosine)) continue;
+    EXPECT_FALSE(radius_edge_within<3>(s, options.radius_edge_bound));
+    ++behind;
+    r.entities[0].facet = (r.entities[0].facet + 6) % 12;  // that on another side, or of another plane
+  }
+  EXPECT_GT(behind, unexplained);
+  const CheckReport falsified = checked(model, options, result);
+  EXPECT_GE(falsified.unexplained + falsified.count(CheckFinding::Kind::bad_reason), unexplained + behind / 2);
 }
 
 TEST(KeptSurface, TheCheckerFindsWhatWasNotKept) {

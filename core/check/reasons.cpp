@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 #include "check/wedges.hpp"
@@ -15,6 +16,7 @@
 #include "pgdr/circumsphere.hpp"
 #include "pgdr/point_selector.hpp"
 #include "pgdr/predicates.hpp"
+#include "select/blocked_places.hpp"
 #include "space/distances.hpp"
 #include "space/equal_rows.hpp"
 
@@ -94,7 +96,8 @@ bool Reasons<D>::excuses_dihedral(std::uint32_t cell) {
   return std::any_of(of.begin(), of.end(), [&](std::uint32_t r) {
     const PoorReason& reason = (*options_.reasons)[r];
     if (reason.code == PoorReason::Code::input_dihedral) return in_wedge(reason, why) == Verdict::holds;
-    if (reason.code == PoorReason::Code::kept_boundary) return beside_kept(reason, why) && has_edge_on(reason);
+    if (reason.code == PoorReason::Code::kept_boundary)
+      return beside_kept(reason, why) && (has_edge_on(reason) || is_behind_kept(reason));
     if (reason.code != PoorReason::Code::small_angle) return false;
     return is_true(reason, why) && (is_at_corner(reason) || is_in_gap(reason));
   });
@@ -327,9 +330,25 @@ bool Reasons<D>::is_subfacet(std::array<std::uint32_t, 3> corners) {
   return std::ranges::binary_search(sorted_subfacets_, corners);
 }
 
+/// Calls on_triangle with the corners of each triangle of what was kept, on_segment with the ends of a segment. Of a side it is
+/// the subfacets that count, and their edges.
+template <int D>
+template <class OnTriangle, class OnSegment>
+void Reasons<D>::each_kept_piece(const GivenEntity& name, const Entity& e, OnTriangle on_triangle, OnSegment on_segment) {
+  const auto p = [&](std::uint32_t i) { return named_->point(i); };
+  if (e.kind == EntityKind::segment) return on_segment(std::array{p(e.ends[0]), p(e.ends[1])});
+  if constexpr (D == 3) {
+    const bool of_side = is_side(name);
+    for (const auto& t : e.triangles) {
+      if (of_side && !is_subfacet(t)) continue;
+      on_triangle(std::array{p(t[0]), p(t[1]), p(t[2])});
+      for (std::size_t i = 0; of_side && i < 3; ++i) on_segment(std::array{p(t[i]), p(t[(i + 1) % 3])});
+    }
+  }
+}
+
 /// A segment in one piece, or a facet without points of its own, that meets the cell's circumball, doubled, or has its centre in
-/// the smallest ball about the segment, or about a triangle of the facet. Of a side it is the subfacets that count, and their
-/// edges.
+/// the smallest ball about the segment, or about a triangle of the facet.
 template <int D>
 bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
   const auto fail = [&](std::string text) {
@@ -348,16 +367,30 @@ bool Reasons<D>::beside_kept(const PoorReason& reason, std::string& why) {
     return std::sqrt(squared_distance(own.center, ball.center)) <=
            std::sqrt(own.squared_radius) * (1 + rounding::of_blame_checked) + ball.center_error;
   };
-  const auto p = [&](std::uint32_t i) { return named_->point(i); };
-  bool encroached = is_segment && is_in(diametral_ball<D>(p(e->ends[0]), p(e->ends[1])));
-  if constexpr (D == 3)
-    for (const auto& t : e->triangles) {
-      if (of_side && !is_subfacet(t)) continue;
-      encroached = encroached || is_in(equatorial_ball(p(t[0]), p(t[1]), p(t[2])));
-      for (std::size_t i = 0; of_side && i < 3; ++i)
-        encroached = encroached || is_in(diametral_ball<D>(p(t[i]), p(t[(i + 1) % 3])));
-    }
+  bool encroached = false;
+  each_kept_piece(
+      reason.entities[0], *e, [&](const auto& t) { encroached = encroached || is_in(equatorial_ball(t[0], t[1], t[2])); },
+      [&](const auto& ends) { encroached = encroached || is_in(diametral_ball<D>(ends[0], ends[1])); });
   return encroached || near(reason.cell, *e) || fail("its circumcentre is not beside " + words_of<D>(reason.entities[0]));
+}
+
+/// Is the cell over the bound of shape, and both places for a point that takes it away are hidden by what was kept, which meets
+/// its circumball, doubled, or in the smallest balls about that? Then refinement would have to split it. @pre beside_kept()
+template <int D>
+bool Reasons<D>::is_behind_kept(const PoorReason& reason) {
+  if constexpr (D == 3) {
+    const Simplex<3> s = corners_of(mesh_, reason.cell);
+    const double bound = options_.radius_edge_bound;
+    const Entity* e = pair_of(reason).a;
+    if (!(bound < std::numeric_limits<double>::infinity()) || radius_edge_within<3>(s, bound)) return false;
+    const detail::PlacesForCell places(s, bound);
+    unsigned blocked = 0;
+    each_kept_piece(
+        reason.entities[0], *e, [&](const auto& t) { blocked |= places.blocked_by_triangle(t); },
+        [&](const auto& ends) { blocked |= places.blocked_by_segment(ends); });
+    return blocked == places.all && near(reason.cell, *e);
+  }
+  return false;
 }
 
 /// Has the cell an edge on what was kept?

@@ -189,6 +189,14 @@ std::optional<DomainReason> OptimizedReasons::kept_at(CellId c) const {
   return {};
 }
 
+/// What was kept, and blocks the places for a point that would take the cell away, which is over the bound of shape.
+std::optional<DomainReason> OptimizedReasons::kept_before(CellId c) {
+  if (!kept_blocks_) kept_blocks_.emplace(*domain_, *kept_);
+  const auto e = kept_blocks_->of_cell(mesh_->simplex(c), bounds_->radius_edge_bound);
+  if (!e) return {};
+  return DomainReason{PoorReason::Code::kept_boundary, {*e, {}}, 0};
+}
+
 /// A kept entity that stands in the way of a better cell: among those at ever more cells round it, the first beside its
 /// circumball.
 std::optional<DomainReason> OptimizedReasons::kept_near(CellId c) {
@@ -238,6 +246,7 @@ std::vector<PoorCell> OptimizedReasons::of_cells(std::span<const CellId> cells, 
         reason = DomainReason{PoorReason::Code::beyond_theory, {}, 0};
     }
     if (!reason && kept_->any()) reason = below ? kept_at(c) : kept_near(c);
+    if (!reason && kept_->any() && below && verdict.over_radius_edge) reason = kept_before(c);
     found.push_back({c, true, verdict.over_size > 0, reason.value_or(DomainReason{otherwise, {}, 0}), false});
   }
   return found;

@@ -14,6 +14,7 @@
 
 #include "input/sharp_angles.hpp"
 #include "mesh/key_set.hpp"
+#include "reasons/kept_blocks.hpp"
 #include "reasons/poor_reasons.hpp"
 #include "reasons/vertex_gaps.hpp"
 
@@ -42,6 +43,7 @@ class OptimizedReasons {
   std::optional<DomainReason> gap_at_corner(CellId c);
   std::optional<DomainReason> angle_near(CellId c);
   std::optional<DomainReason> kept_at(CellId c) const;
+  std::optional<DomainReason> kept_before(CellId c);
   std::optional<DomainReason> kept_near(CellId c);
   const std::vector<Pair>& segments_sharp_at(EntityId point);
   const std::vector<Pair>& facets_sharp_at(EntityId segment);
@@ -59,6 +61,7 @@ class OptimizedReasons {
   std::unordered_map<EntityId, std::vector<Pair>> sharp_segments_;   ///< by input point
   std::unordered_map<EntityId, std::vector<Pair>> sharp_facets_;     ///< by segment
   std::unordered_map<EntityId, std::optional<Pair>> sharp_corners_;  ///< by input point: of two segments of one facet
+  std::optional<KeptBlocks> kept_blocks_;                            ///< once it was asked for
   // Scratch of angle_near():
   std::vector<CellId> cells_near_;
   KeySet known_cells_, known_vertices_;

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "numbers/finite.hpp"
-#include "pgdr/selectors.hpp"
 #include "refine/encroachment.hpp"
 #include "refine/numbers.hpp"
 #include "refine/visibility.hpp"
@@ -177,18 +176,7 @@ std::optional<Point<D>> ElementSplitter<D>::place_inside(const Entry<D>& entity,
     }
     return x;
   }
-  std::array<int, 2> shortest{0, 1};
-  for (int i = 0; i <= D; ++i)
-    for (int j = i + 1; j <= D; ++j)
-      if (squared_distance(s[i], s[j]) < squared_distance(s[shortest[0]], s[shortest[1]])) shortest = {i, j};
-  const Point<D>&p = s[shortest[0]], &q = s[shortest[1]];
-  for (int k = 0; k < D; ++k) x[k] = p[k] + (q[k] - p[k]) / 2;
-  const double far = detail::off_center_distance(default_off_center_factor<D>(), std::sqrt(squared_distance(p, q)),
-                                                 w_->options.radius_edge_bound);
-  const double to_center = std::sqrt(squared_distance(x, c.sphere.center));
-  if (!(far < to_center)) return std::nullopt;
-  for (int k = 0; k < D; ++k) x[k] += far / to_center * (c.sphere.center[k] - x[k]);
-  return x;
+  return detail::off_center_before<D>(s, c.sphere.center, w_->options.radius_edge_bound);
 }
 
 template <int D>
