@@ -152,8 +152,13 @@ bool HullFilling::search(const Hull& hull, Cells& out) {
 }
 
 /// What has to be in the hull is, and x sees all faces from inside.
-bool HullFilling::is_seen_from(const Hull& hull, const Point3& x) const {
-  return hull.inside.empty() && quality_about(hull, x) > 0 &&
+bool HullFilling::is_seen_from(const Hull& hull, const Point3& x, bool flat) const {
+  const auto is_seen = [&](const Hull::Face& face) {
+    const auto p = mesh_->points(face);
+    return orient<3>({p[0], p[1], p[2], x}) == Sign::positive;
+  };
+  return hull.inside.empty() &&
+         (flat ? std::all_of(hull.faces.begin(), hull.faces.end(), is_seen) : quality_about(hull, x) > 0) &&
          std::all_of(hull.edges.begin(), hull.edges.end(), [&](const auto& edge) { return is_edge_of_face(hull, edge); });
 }
 

@@ -29,9 +29,9 @@ class HullFilling {
   /// Appends cells of the hull's own vertices that fill it. `facets`: those that may have all corners of a cell. False: none are
   /// found.
   bool fill(const Hull& hull, std::span<const EntityId> facets, Cells& out);
-  /// Do cells about a new point there fill it?
-  bool is_seen_from(const Hull& hull, const Point3& x) const;
-  /// A place where the worst of these cells is better, or x. @pre is_seen_from(hull, x)
+  /// Do cells about a new point there fill it? `flat`: even if doubles take some of them for flat; they are positive, exactly.
+  bool is_seen_from(const Hull& hull, const Point3& x, bool flat) const;
+  /// A place where the worst of these cells is better, or x. @pre is_seen_from(hull, x, true)
   Point3 better_place(const Hull& hull, const Point3& x);
 
  private:

@@ -26,8 +26,10 @@ namespace {
 
 constexpr CellId no_cell{0xffffffff};
 
-/// What may be done for a sector that its own vertices do not fill.
-enum class Means { none, growth, point_inside };
+/// What may be done for a sector that its own vertices do not fill. The last is a point inside as well, about which doubles take
+/// some cells for flat: the proof is about their signs alone.
+enum class Means { none, growth, point_inside, flat_cells };
+constexpr std::array all_means{Means::none, Means::growth, Means::point_inside, Means::flat_cells};
 
 class Withdrawal {
  public:
@@ -39,7 +41,7 @@ class Withdrawal {
   WithdrawalCounts run(const std::stop_token& stop) {
     WithdrawalCounts counts;
     for (const VertexId v : on_boundary_) ++(on_segment(v) ? counts.on_segments : counts.on_facets);
-    for (const Means means : {Means::none, Means::growth, Means::point_inside}) work_off(on_boundary_, means, stop);
+    for (const Means means : all_means) work_off(on_boundary_, means, stop);
     for (const Means means : {Means::none, Means::growth}) work_off(inside_, means, stop);
     for (const VertexId v : on_boundary_) ++(on_segment(v) ? counts.left_on_segments : counts.left_on_facets);
     counts.inside = inside_.size();
@@ -57,17 +59,19 @@ class Withdrawal {
   bool fill_growing(Hull& hull);
   bool grow(Hull& hull);
   void take_cell(Hull& hull, CellId c);
-  bool dig_out(Hull& hull, const Point3& x);
-  bool fill_about_new_point(const Hull& hull);
+  bool dig_out(Hull& hull, const Point3& x, bool flat);
+  bool fill_about_new_point(const Hull& hull, bool flat);
   bool fill_about_rim(const Hull& hull);
   bool add_star(const Hull& hull, const Point3& x);
   VertexId make_point(const Point3& x, std::span<const VertexId> neighbors);
   void commit();
-  /// Have the cells at the vertex changed since these means did nothing for it? Else they will not.
+  /// Have the cells at the vertex changed since these means did nothing for it? Else they will not. A point inside may ask for
+  /// cells that are far from it: so any change counts.
   bool is_new(VertexId v, Means means) {
     auto& tried = tried_at_[static_cast<std::size_t>(means)];
     if (tried.size() <= index(v)) tried.resize(mesh_->vertex_bound(), 0xffffffff);
-    return std::exchange(tried[index(v)], mesh_->note(v).version) != mesh_->note(v).version;
+    const std::uint32_t version = means >= Means::point_inside ? changes_ : mesh_->note(v).version;
+    return std::exchange(tried[index(v)], version) != version;
   }
   bool on_segment(VertexId v) const { return mesh_->vertex(v).home.kind() == EntityKind::segment; }
   bool is_taken(CellId c) const { return std::find(tried_.old.begin(), tried_.old.end(), c) != tried_.old.end(); }
@@ -79,12 +83,14 @@ class Withdrawal {
   RimFilling rim_;
   Replacer<3> replacer_;
   Replacement<3> tried_;
-  VertexId vertex_{};                                   ///< that is to go
-  std::vector<EntityId> facets_;                        ///< that may have all corners of a cell
-  Points made_;                                         ///< by what is tried
-  Points on_boundary_, inside_;                         ///< those on facets last, in the order in which they came
-  std::vector<CellId> cell_at_;                         ///< of each vertex, one
-  std::array<std::vector<std::uint32_t>, 3> tried_at_;  ///< by means, of each vertex: the version of the cells there
+  VertexId vertex_{};             ///< that is to go
+  std::vector<EntityId> facets_;  ///< that may have all corners of a cell
+  Points made_;                   ///< by what is tried
+  Points on_boundary_, inside_;   ///< those on facets last, in the order in which they came
+  std::vector<CellId> cell_at_;   ///< of each vertex, one
+  std::array<std::vector<std::uint32_t>, all_means.size()>
+      tried_at_;               ///< by means, of each vertex: the version of the cells there, or changes_
+  std::uint32_t changes_ = 0;  ///< so many points have gone
 };
 
 void Withdrawal::find_points(const KeptEntities<3>& kept) {
@@ -107,7 +113,7 @@ void Withdrawal::work_off(Points& points, Means most, const std::stop_token& sto
     for (std::size_t i = points.size(); i-- > 0;) {
       mesh_->make_room(*pools_);
       bool gone = cell_at_[index(points[i])] == no_cell;  // with another one
-      for (const Means means : {Means::none, Means::growth, Means::point_inside})
+      for (const Means means : all_means)
         if (!gone && means <= most && !stop.stop_requested() && is_new(points[i], means)) gone = take_off(points[i], means);
       if (!gone) left.push_back(points[i]);
     }
@@ -124,7 +130,7 @@ bool Withdrawal::take_off(VertexId v, Means most) {
   vertex_ = v;
   if (!parts_.take(v, cell_at_[index(v)])) return false;
   if (try_filling(most, true)) return true;
-  return most == Means::point_inside && try_filling(most, false);
+  return most >= Means::point_inside && try_filling(most, false);
 }
 
 bool Withdrawal::try_filling(Means most, bool with_own) {
@@ -150,7 +156,7 @@ bool Withdrawal::try_filling(Means most, bool with_own) {
 /// By more than its own vertices.
 bool Withdrawal::fill(Hull& hull, Means most) {
   if (most == Means::growth) return fill_growing(hull);
-  return most == Means::point_inside && fill_about_new_point(hull);
+  return most >= Means::point_inside && fill_about_new_point(hull, most == Means::flat_cells);
 }
 
 bool Withdrawal::fill_growing(Hull& hull) {
@@ -228,14 +234,14 @@ void Withdrawal::take_cell(Hull& hull, CellId c) {
 }
 
 /// Takes cells across faces that x does not see, until it sees all. False where that ends at a wall, or at too many.
-bool Withdrawal::dig_out(Hull& hull, const Point3& x) {
+bool Withdrawal::dig_out(Hull& hull, const Point3& x, bool flat) {
   const auto is_seen = [&](const Hull::Face& f) {
     const auto p = mesh_->points(f);
     return orient<3>({p[0], p[1], p[2], x}) == Sign::positive;
   };
   while (true) {
     const auto hidden = std::find_if(hull.faces.begin(), hull.faces.end(), [&](const auto& f) { return !is_seen(f); });
-    if (hidden == hull.faces.end()) return filling_.is_seen_from(hull, x);
+    if (hidden == hull.faces.end()) return filling_.is_seen_from(hull, x, flat);
     const Link beyond = hull.beyond[static_cast<std::size_t>(hidden - hull.faces.begin())];
     if (!beyond || is_taken(beyond.cell()) || tried_.old.size() >= numbers::most_grown_cells) return false;
     take_cell(hull, beyond.cell());
@@ -243,7 +249,7 @@ bool Withdrawal::dig_out(Hull& hull, const Point3& x) {
 }
 
 /// At the longest step inwards that does, of those that are halved from the size of the hull on.
-bool Withdrawal::fill_about_new_point(const Hull& hull) {
+bool Withdrawal::fill_about_new_point(const Hull& hull, bool flat) {
   const Point3& from = mesh_->point(vertex_);
   const auto& d = hull.inwards;
   const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -257,7 +263,7 @@ bool Withdrawal::fill_about_new_point(const Hull& hull) {
     for (int i = 0; i < 3; ++i) x[i] += step * d[static_cast<std::size_t>(i)] / length;
     Hull dug = hull;
     const std::size_t before = tried_.old.size();
-    if (dig_out(dug, x)) return add_star(dug, filling_.better_place(dug, x));
+    if (dig_out(dug, x, flat)) return add_star(dug, filling_.better_place(dug, x));
     tried_.old.resize(before);
   }
   return false;
@@ -304,6 +310,7 @@ void Withdrawal::commit() {
       if (link && !is_taken(link.cell())) rim.push_back(link.cell());
   }
   replacer_.commit(*pools_, tried_);
+  ++changes_;
   cell_at_.resize(mesh_->vertex_bound(), no_cell);
   for (const VertexId v : before) cell_at_[index(v)] = no_cell;
   for (const auto* cells : {&std::as_const(rim), &replacer_.new_cells()})
