@@ -46,8 +46,8 @@ bool VertexParts::take(VertexId v, CellId c) {
 void VertexParts::collect_cells(CellId c) {
   cells_.clear();
   take_cell(c);
-  add_pinched(c);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
+    add_pinched(cells_[i]);
     const auto& k = mesh_->cell(cells_[i]);
     for (int f = 0; f < 4; ++f)
       if (k.vertices[f] != vertex_ && k.links[f]) take_cell(k.links[f].cell());
