@@ -138,6 +138,7 @@ Point3 FacetPatches::centroid_of(const Triangle& t) const {
 /// A vertex that was made inside the facet.
 void FacetPatches::add_inner_point(EntityId facet, VertexId v) {
   auto& inner = inner_points_[facet];
+  squares_->drop_facet(facet);
   const Home home = mesh_->vertex(v).home;
   const bool own = home.kind() == EntityKind::facet && home.id() == facet;
   // New vertices have larger ids than all before.

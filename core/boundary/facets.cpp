@@ -52,11 +52,13 @@ InputError not_a_plane_graph(const Domain<3>& domain, EntityId f, const Mesh<3>&
   return InputError(std::move(d));
 }
 
-FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains, const Bulk& bulk)
+FacetPatches::FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains,
+                           SquareFlips& squares, const Bulk& bulk)
     : mesh_(&mesh),
       delaunay_(&delaunay),
       domain_(&domain),
       chains_(&chains),
+      squares_(&squares),
       bulk_(&bulk),
       triangles_(domain.facets().size()),
       seen_(domain.facets().size()),
@@ -182,14 +184,18 @@ bool FacetPatches::recover_once(const std::function<bool()>& stop) {
   if (!triangulate_changed(stop)) return true;
   look_again_.insert(look_again_.end(), changed_.begin(), changed_.end());
   changed_.clear();
-  std::vector<SplitPlan> missing = plan_splits(find_present(), [this](EntityId f) {
+  const std::vector<EntityId> present = find_present();
+  std::vector<SplitPlan> missing = plan_splits(present, [this](EntityId f) {
     std::vector<Candidate> of_facet;
+    if (squares_->has_facet(f)) return of_facet;
     for (std::size_t i = 0; i < triangles_[f].size(); ++i)
       if (const Triangle& t = triangles_[f][i]; seen_[f][i] == not_seen)
         of_facet.push_back({equatorial_ball(mesh_->point(t[0]), mesh_->point(t[1]), mesh_->point(t[2])), t, 0});
     return of_facet;
   });
   look_again_.clear();
+  for (const EntityId f : present)
+    if (squares_->has_facet(f)) look_again_.push_back(f);
   std::size_t triangles = 0;
   for (const SplitPlan& plan : missing) {
     look_again_.push_back(plan.facet());

@@ -97,8 +97,9 @@ class BoundaryRecovery {
         options_(&options),
         counts_(&counts),
         bulk_(pieces),
-        chains_(mesh, delaunay, domain, bulk_),
-        patches_(mesh, delaunay, domain, chains_, bulk_),
+        squares_(mesh, delaunay, domain),
+        chains_(mesh, delaunay, domain, squares_, bulk_),
+        patches_(mesh, delaunay, domain, chains_, squares_, bulk_),
         end_(options, start),
         last_report_(start) {}
 
@@ -125,6 +126,7 @@ class BoundaryRecovery {
   const RefineOptions<3>* options_;
   RecoveryCounts* counts_;
   const detail::Bulk bulk_;
+  detail::SquareFlips squares_;
   detail::SegmentChains chains_;
   detail::FacetPatches patches_;
   EarlyEnd<3> end_;
@@ -132,13 +134,17 @@ class BoundaryRecovery {
   std::uint64_t needed_ = 0;  ///< points, before any was for the shape of a triangle
 };
 
-/// Is nothing missing in the end, and no triangle poor? False: it ended early.
+/// Is nothing missing in the end, and no triangle poor? False: it ended early. Where the boundary is kept, and points have to go
+/// again, what flips can make gets none; when they are made, all that they have changed is looked at once more.
 bool BoundaryRecovery::recover() {
   const auto stop = [this] { return is_over(); };
+  if (options_->keep_boundary) squares_.take(chains_.missing_segments());
   while (true) {
     ++counts_->rounds;
     if (is_over() || !chains_.recover(stop)) return false;
-    if (!patches_.recover_once(stop) && !improve()) return true;
+    if (patches_.recover_once(stop) || improve()) continue;
+    if (!squares_.any()) return true;
+    if (squares_.flip()) squares_.clear();
   }
 }
 

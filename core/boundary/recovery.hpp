@@ -13,6 +13,8 @@
 //   * Facets. Each keeps the constrained Delaunay triangulation of its points in its plane. A triangle that is no face of the
 //     mesh gets a point at its circumcentre. If that encroaches upon a subsegment of the facet, this is split instead.
 //
+// Where the boundary is kept, diagonals of rectangles and the like are made by flips in the end (boundary/square_flips.hpp).
+//
 // Early splits, once nothing is missing. Where facets meet at 60 degrees or more, and segments at 20 or more, triangles over
 // twice the radius-edge bound (of two at least) are split in the same way.
 //   * Why here: the refinement would have to split them anyway, since all faces of a tetrahedron within the bound are within it.

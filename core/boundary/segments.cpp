@@ -10,10 +10,12 @@
 
 namespace pgdr::detail {
 
-SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const Bulk& bulk)
+SegmentChains::SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SquareFlips& squares,
+                             const Bulk& bulk)
     : mesh_(&mesh),
       delaunay_(&delaunay),
       domain_(&domain),
+      squares_(&squares),
       bulk_(&bulk),
       chains_(domain.segments().size()),
       shells_(domain, true, bulk),
@@ -47,6 +49,13 @@ std::vector<Subsegment> SegmentChains::missing() {
   return list;
 }
 
+std::vector<EntityId> SegmentChains::missing_segments() {
+  std::vector<EntityId> segments;
+  for (const Subsegment& s : missing())
+    if (segments.empty() || segments.back() != s.segment) segments.push_back(s.segment);
+  return segments;
+}
+
 /// Place of b in the chain if ab is a subsegment, else 0.
 std::size_t SegmentChains::position(const Subsegment& s) const {
   const auto& chain = chains_[s.segment];
@@ -60,6 +69,7 @@ void SegmentChains::add(EntityId segment, std::size_t position, VertexId v, doub
   chain.insert(chain.begin() + static_cast<std::ptrdiff_t>(position), {v, t, round_});
   changed_.push_back(segment);
   look_again_.push_back(segment);
+  for (const EntityId f : domain_->facets_of_segment(segment)) squares_->drop_facet(f);
   ++points_;
 }
 

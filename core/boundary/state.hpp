@@ -18,6 +18,7 @@
 
 #include "boundary/present_simplices.hpp"
 #include "boundary/recovery.hpp"
+#include "boundary/square_flips.hpp"
 #include "boundary/wanted_simplices.hpp"
 #include "mesh/ids.hpp"
 #include "rule/shells.hpp"
@@ -63,8 +64,11 @@ class SegmentChains {
     CellId seen = never_asked;  ///< a cell that has the edge to it from the vertex before
   };
 
-  SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, const Bulk& bulk);
+  /// All must outlive it. `squares`: what flips are to make is neither missing nor split.
+  SegmentChains(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SquareFlips& squares, const Bulk& bulk);
 
+  /// Segments with subsegments that are no edges of the mesh.
+  std::vector<EntityId> missing_segments();
   /// Splits every subsegment that is no edge of the mesh, until none is missing. False if `stop` says so.
   template <class Stop>
   bool recover(const Stop& stop) {
@@ -75,6 +79,7 @@ class SegmentChains {
       trend_.note(list.size());
       for (const Subsegment& s : list) {
         if (stop()) return false;
+        if (squares_->has_segment(s.segment)) continue;
         again = split(s) != no_vertex || again;
       }
     }
@@ -111,6 +116,7 @@ class SegmentChains {
   Mesh<3>* mesh_;
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
+  SquareFlips* squares_;
   const Bulk* bulk_;
   std::vector<std::vector<Link>> chains_;
   Shells<3> shells_;
@@ -129,7 +135,8 @@ class SegmentChains {
 /// side by side; the points go in one after the other.
 class FacetPatches {
  public:
-  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains, const Bulk& bulk);
+  FacetPatches(Mesh<3>& mesh, Delaunay<3>& delaunay, const Domain<3>& domain, SegmentChains& chains, SquareFlips& squares,
+               const Bulk& bulk);
 
   /// Puts points where triangles are missing, one round. False if none was missing. Ends early if `stop` says so.
   bool recover_once(const std::function<bool()>& stop);
@@ -176,6 +183,7 @@ class FacetPatches {
   Delaunay<3>* delaunay_;
   const Domain<3>* domain_;
   SegmentChains* chains_;
+  SquareFlips* squares_;
   const Bulk* bulk_;
   std::vector<std::vector<Triangle>> triangles_;
   std::vector<std::vector<CellId>> seen_;            ///< of each triangle, a cell that has it

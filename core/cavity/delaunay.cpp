@@ -206,6 +206,14 @@ VertexId Delaunay<D>::commit(Home home, float relaxed_radius) {
 }
 
 template <int D>
+void Delaunay<D>::note_changed(std::span<const CellId> cells) {
+  for (auto* changed : listeners_) changed->add(cells);
+  for (const CellId c : cells)
+    for (const VertexId u : mesh_->cell(c).vertices)
+      if (u != infinite_vertex) cell_at_[index(u)] = c;
+}
+
+template <int D>
 void Delaunay<D>::note_cells() {
   for (const CellId c : cavity_.new_cells())
     for (const VertexId u : mesh_->cell(c).vertices)

@@ -50,6 +50,9 @@ class Delaunay {
   /// Adds the cells that insertions delete and make to `changed` from now on. It must outlive this.
   void tell_changes(detail::ChangedCells& changed) { listeners_.push_back(&changed); }
 
+  /// Somebody else has given these cells other vertices, the same together.
+  void note_changed(std::span<const CellId> cells);
+
   /// Vertices in the order of `points`.
   const std::vector<VertexId>& vertices() const { return vertices_; }
   /// Of each island one of its vertices.
