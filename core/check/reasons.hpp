@@ -10,8 +10,9 @@
 // these, and planar angles below arcsin(1 / (2 B)), B the bound on the ratio (input/sharp_angles.hpp). For a ratio or a size they
 // may be near the cell, as they always might. For a dihedral angle they have to be at the cell itself: the wedge of the walls at
 // one of its edges, which the cell fills or shares, a sharp corner at one of its vertices, or a gap there between entities that
-// share that vertex alone; or a part of the boundary that was kept, on which the cell has an edge, or that blocks the points which
-// would take it away for its ratio (select/blocked_places.hpp). A reason that is true but no excuse leaves the cell unexplained.
+// share that vertex alone; or a part of the boundary that was kept, on which the cell has an edge, or that blocks the points
+// which would take it away for its ratio (select/blocked_places.hpp). A reason that is true but no excuse leaves the cell
+// unexplained.
 #pragma once
 
 #include <map>
