@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "domain_plcs.hpp"
@@ -337,6 +339,50 @@ TEST(KeptSurface, DiagonalsOfRectanglesNeedNoPoints) {
     const CheckReport of_refined = checked(plc, options, refined);
     EXPECT_LE(of_refined.exit_code(), 1) << findings(of_refined);
     EXPECT_EQ(refined.statistics.boundary_points, 0u);
+  }
+}
+
+/// Random bricks of a grid with uneven spacing, which touch along edges and in corners; each of their sides has a random
+/// diagonal.
+Plc<3> random_bricks(unsigned seed) {
+  std::mt19937 random(seed);
+  const std::array<double, 6> at{0, 1, 2.25, 3, 4.5, 5.25};
+  std::set<std::array<int, 3>> bricks;
+  for (int i = 0; i < 24; ++i) {
+    std::array<int, 3> brick;
+    for (int& x : brick) x = static_cast<int>(random() % 4);
+    bricks.insert(brick);
+  }
+  Plc<3> plc;
+  std::map<std::array<int, 3>, Index> known;
+  for (const auto& brick : bricks)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        auto beyond = brick;
+        beyond[axis] += side == 1 ? 1 : -1;
+        if (bricks.contains(beyond)) continue;
+        std::array<Index, 4> q;
+        for (std::size_t k = 0; k < 4; ++k) {
+          auto corner = brick;
+          corner[axis] += side;
+          corner[(axis + 1) % 3] += k == 1 || k == 2 ? 1 : 0;
+          corner[(axis + 2) % 3] += k >= 2 ? 1 : 0;
+          const auto [found, is_new] = known.try_emplace(corner, static_cast<Index>(plc.points.size()));
+          const auto place = [&](std::size_t i) { return at[static_cast<std::size_t>(corner[i])]; };
+          if (is_new) plc.points.push_back({{place(0), place(1), place(2)}});
+          q[k] = found->second;
+        }
+        const std::size_t first = random() % 2;
+        add_polygon(plc, {q[first], q[first + 1], q[(first + 2) % 4]});
+        add_polygon(plc, {q[first], q[(first + 2) % 4], q[(first + 3) % 4]});
+      }
+  return plc;
+}
+
+TEST(KeptSurface, BricksThatTouch) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const testing::ScopedTrace trace(__FILE__, __LINE__, seed);
+    kept(random_bricks(seed));
   }
 }
 
