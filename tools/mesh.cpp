@@ -73,7 +73,7 @@ class MeshRun {
     Transport* const transport = ranks_.transport();
     const Measured measured = transport ? measure(*transport, made_) : measure(result_);
     ranks_.on_first([&] {
-      report_.set("tolerance", result_.tolerance);
+      if (!surface_) report_.set("tolerance", result_.tolerance);  // else that of what was given, as `check` reads it
       report_.set("largest_move", result_.largest_move);
       fill(report_, a_, threads_, bounds_, result_, measured);
       if (surface_ && surface_->replaced.report.stopped) report_.set("reproducible", false);

@@ -48,6 +48,20 @@ class SurfaceStep(Case):
         self.assertIn(done.returncode, (0, 1), done.stderr)
         self.certify(ANCHOR, "0.1%", (0, 1, 2))
 
+    def test_the_tolerance_of_the_report_is_that_of_what_was_given(self):
+        # Each triangle has corners of its own, 1e-6 off. The report had the tolerance of the surface in its place, with which the
+        # facets as given enclosed nothing: "lies in a volume of the input that is not to be meshed".
+        lines = ball(24).splitlines()
+        points, facets = int(lines[1].split()[0]), lines[2:]
+        corners = [[float(x) + 1e-6 * (k % 2) for x in facets[int(v)].split()]
+                   for k, f in enumerate(facets[points:]) for v in f.split()[1:]]
+        model = self.file("loose.off", "OFF\n%d %d 0\n" % (len(corners), len(corners) // 3)
+                          + "".join("%r %r %r\n" % tuple(p) for p in corners)
+                          + "".join("3 %d %d %d\n" % (k, k + 1, k + 2) for k in range(0, len(corners), 3)))
+        self.mesh(model, "--tolerance", "1e-5", "--surface-tolerance", "1%", "--report", self.report, expect=None)
+        self.assertEqual(self.json()["tolerance"], 1e-5)
+        self.certify(model, "1%", (0, 1))
+
     def test_threads_and_the_order_of_facets_are_no_matter(self):
         lines = ball(16).splitlines()
         points, facets = int(lines[1].split()[0]), lines[2:]

@@ -193,6 +193,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     sides = sides_of(periodic, dimension)
     if surface_tolerance is not None:
         wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
+        given_tolerance = plc.tolerance
         plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted,
                                           fixed_markers=[marker for side in sides for marker in side[:2]])
     size, size_unit = size_unit_of(size, edge_length, size_unit)
@@ -243,6 +244,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     if surface is not None and isinstance(made._core, _pgdr.Mesh3) and isinstance(given._core, _pgdr.Plc3):
         _pgdr.name_facets_by_places(made._core, given._core)  # the input does not have these facets
         made._facts["surface"] = surface
+        made.statistics["tolerance"] = given_tolerance  # as `check` reads what was given
     if kept:
         made._facts["kept_boundary"] = kept
     made._facts["conforming_delaunay"] = conforming_delaunay and made.stop == "finished"
