@@ -331,6 +331,44 @@ TEST(NearPairs, ThinVolumesAreCounted) {
   EXPECT_EQ(certify(with_cube(3 - e / 2), mesh_of(with_cube(3 + e / 4)), e / 10).exit_code(), 6);
 }
 
+/// A plate whose top is lower by h from one place on. Two facets are its bottom, and end on an edge of others.
+Plc<3> plate_with_step(double h) {
+  constexpr int squares = 8;
+  constexpr double length = 11.5;
+  std::vector<Point3> outline{{{0, 0, -1}}, {{length, 0, -1}}};  // of a side, from its lower end on
+  Plc<3> plc;
+  const auto add_across = [&](const Point3& p, const Point3& q) {
+    test::add_facet(plc, {p, q, {{q[0], 1, q[2]}}, {{p[0], 1, p[2]}}});
+  };
+  std::vector<Point3> top{{{0, 0, 0}}, {{1.5, 0, 0}}};
+  for (int k = 1; k <= squares; ++k) top.push_back({{1.5 + k, 0, 0}});
+  top.push_back({{1.5 + squares, 0, -h}});
+  for (int k = squares + 1; 1.5 + k <= length; ++k) top.push_back({{1.5 + k, 0, -h}});
+  for (std::size_t k = 1; k < top.size(); ++k) add_across(top[k - 1], top[k]);
+  add_across({{0, 0, -1}}, {{5, 0, -1}});
+  add_across({{5, 0, -1}}, {{length, 0, -1}});
+  add_across({{0, 0, -1}}, {{0, 0, 0}});
+  add_across({{length, 0, -1}}, {{length, 0, -h}});
+  outline.insert(outline.end(), top.rbegin(), top.rend());
+  test::add_facet(plc, outline);
+  for (Point3& p : outline) p[1] = 1;
+  test::add_facet(plc, outline);
+  return plc;
+}
+
+// The top is some triangles long, so that what lies a few tolerances below its far end may be in one plane with the first of
+// them. The certificate took the riser for a part of that plane, in which it is seen as a line: "What is left over of facets
+// makes no complex". (A printer's platform had such steps, of a third of a micrometre.)
+TEST(NearPairs, StepsOfSomeTolerances) {
+  for (const double h : {1.5e-3, 2e-3, 3e-3, 5e-3, 9e-3, 12e-3, 20e-3}) {
+    Plc<3> given = plate_with_step(h);
+    given.tolerance = 1e-3;
+    given.is_coarse = true;
+    const auto report = certify(given, mesh_of(given));
+    EXPECT_EQ(report.exit_code(), 0) << h << ": " << findings(report);
+  }
+}
+
 TEST(NearPairs, ThreadsChangeNothing) {
   const Plc<3> given = test::icosphere(3), other = coloured_sphere(2, 2);
   const OutputMesh<3> mesh = mesh_of(other);

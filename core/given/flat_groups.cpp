@@ -19,21 +19,66 @@ struct Side {
 
 }  // namespace
 
-// If four points are within r of a plane, the plane of three of them is off it by at most r at these; the height of the fourth
-// above their plane is its own r, and theirs times its barycentric coordinates.
-bool may_be_even(const std::array<Point3, 3>& triangle, const Point3& point, double reach) {
-  const PlaneFrame frame(triangle);
-  if (frame.width() <= 10 * reach) return true;
-  const auto p = frame.place(point);
-  std::array<std::array<double, 3>, 3> at;
-  for (int i = 0; i < 3; ++i) at[i] = frame.place(triangle[i]);
-  const auto doubled = [](const auto& a, const auto& b, const auto& c) {
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+namespace {
+
+/// What the heights of points above the plane of a triangle say, of which all is within r of one plane. The plane of its corners
+/// is off that by at most r at these, so elsewhere by r times the barycentric coordinates; the height of a point is that and its
+/// own r. The heights of two points differ by what the coordinates do, and by both of their own r.
+class EvenHeights {
+ public:
+  explicit EvenHeights(const std::array<Point3, 3>& triangle) : frame_(triangle) {
+    for (int i = 0; i < 3; ++i) at_[i] = frame_.place(triangle[i]);
+    whole_ = std::abs(doubled(at_[0], at_[1], at_[2]));
+  }
+  double width() const { return frame_.width(); }
+
+  struct Place {
+    double height;
+    std::array<double, 3> coordinates;  // barycentric ones, as they are for an area of `whole`
   };
-  const double whole = std::abs(doubled(at[0], at[1], at[2]));
-  double sum = 1;
-  for (int i = 0; i < 3; ++i) sum += std::abs(doubled(at[i], at[(i + 1) % 3], p)) / whole;
-  return std::abs(p[2]) <= sum * reach;
+  Place place(const Point3& x) const {
+    const auto p = frame_.place(x);
+    Place out{p[2], {}};
+    for (int i = 0; i < 3; ++i) out.coordinates[i] = doubled(at_[(i + 1) % 3], at_[(i + 2) % 3], p) / whole_;
+    return out;
+  }
+  static bool is_even(const Place& p, double reach) {
+    double sum = 1;
+    for (const double c : p.coordinates) sum += std::abs(c);
+    return std::abs(p.height) <= sum * reach;
+  }
+  static bool are_even(const Place& p, const Place& q, double reach) {
+    double sum = 2;
+    for (int i = 0; i < 3; ++i) sum += std::abs(p.coordinates[i] - q.coordinates[i]);
+    return std::abs(p.height - q.height) <= sum * reach;
+  }
+
+ private:
+  using Coordinates = std::array<double, 3>;
+  static double doubled(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+
+  PlaneFrame frame_;
+  std::array<Coordinates, 3> at_;
+  double whole_;
+};
+
+}  // namespace
+
+bool may_be_even(const std::array<Point3, 3>& triangle, const Point3& point, double reach) {
+  const EvenHeights heights(triangle);
+  return heights.width() <= 10 * reach || EvenHeights::is_even(heights.place(point), reach);
+}
+
+bool may_be_even(const std::array<Point3, 3>& triangle, const std::array<Point3, 3>& other, double reach) {
+  const EvenHeights heights(triangle);
+  if (heights.width() <= 2 * reach) return true;
+  std::array<EvenHeights::Place, 3> places;
+  for (int i = 0; i < 3; ++i) places[i] = heights.place(other[i]);
+  for (int i = 0; i < 3; ++i)
+    if (!EvenHeights::is_even(places[i], reach) || !EvenHeights::are_even(places[i], places[(i + 1) % 3], reach)) return false;
+  return true;
 }
 
 detail::DisjointSets flat_groups(const GivenInput<3>& input, std::size_t further, std::vector<std::uint32_t>* seams) {

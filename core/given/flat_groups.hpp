@@ -13,6 +13,9 @@ namespace pgdr::checking {
 
 /// Whether a triangle and a point may all be within `reach` of one plane. True of triangles that are not ten times as high.
 bool may_be_even(const std::array<Point3, 3>& triangle, const Point3& point, double reach);
+/// Whether both triangles may be: also where one is far from the other, as a plane that turns about the first one turns all of
+/// the second by as much.
+bool may_be_even(const std::array<Point3, 3>& triangle, const std::array<Point3, 3>& other, double reach);
 
 /// Sets of given triangles, each of one facet: joined across edges of two triangles of one marker that may lie within the
 /// tolerance of one plane. Behind them are `further` numbers, each a set of its own. @param seams set to triangles at such edges

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "given/cover.hpp"
 #include "given/edge_net.hpp"
@@ -13,6 +14,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
 #include "space/box_tree.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 #include "space/planar_cdt.hpp"
 
@@ -44,8 +46,20 @@ struct Plane {
   int axis = 0;  // along which it is seen
   Box<3> box = Box<3>::empty();
   Changes changes;
-  std::vector<PlanarEdge> border;  // of what is left over
+  std::vector<std::uint32_t> points;  // of pieces of its triangles, sorted
+  std::vector<PlanarEdge> border;     // of what is left over
 };
+
+/// Does one come within r of the other?
+bool touch(const std::array<Point3, 3>& a, const std::array<Point3, 3>& b, double r) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (detail::closest_to_triangle(a[i], b[0], b[1], b[2]).square <= r * r) return true;
+    if (detail::closest_to_triangle(b[i], a[0], a[1], a[2]).square <= r * r) return true;
+    for (std::size_t j = 0; j < 3; ++j)
+      if (detail::closest_of_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]).square <= r * r) return true;
+  }
+  return false;
+}
 
 class FlatLeftovers {
  public:
@@ -81,20 +95,25 @@ class FlatLeftovers {
  private:
   std::array<Point3, 3> given(std::uint32_t t) const { return input_.corners(input_.triangles()[t]); }
 
-  /// The largest triangles first: their planes are known best.
+  /// The largest triangles first: their planes are known best. Last those that may be seen from anywhere.
   std::vector<std::uint32_t> triangles_by_size() const {
-    std::vector<std::pair<double, std::uint32_t>> sizes;
-    for (const auto& leftover : match_.leftovers)
-      if (leftover.kind == EntityKind::facet) sizes.push_back({0, leftover.id});
-    detail::make_set(sizes);
-    for (auto& [size, t] : sizes) {
-      const auto c = given(t);
+    struct Sized {
+      bool is_needle;
+      double size;
+      std::uint32_t t;
+      auto operator<=>(const Sized&) const = default;
+    };
+    std::vector<Sized> all;
+    for (const auto& leftover : match_.leftovers) {
+      if (leftover.kind != EntityKind::facet) continue;
+      const auto c = given(leftover.id);
       const double longest = std::max({squared_distance(c[0], c[1]), squared_distance(c[1], c[2]), squared_distance(c[2], c[0])});
-      size = -std::sqrt(longest) * PlaneFrame(c).width();
+      const double width = PlaneFrame(c).width();
+      all.push_back({width <= 2 * match_.reach[leftover.id], -std::sqrt(longest) * width, leftover.id});
     }
-    std::sort(sizes.begin(), sizes.end());
+    detail::make_set(all);
     std::vector<std::uint32_t> out;
-    for (const auto& [size, t] : sizes) out.push_back(t);
+    for (const Sized& s : all) out.push_back(s.t);
     return out;
   }
 
@@ -102,11 +121,13 @@ class FlatLeftovers {
 
   /// Triangles that touch each other, as far as they are in the plane of the largest.
   void find_planes() {
-    const std::vector<std::uint32_t> order = triangles_by_size();
+    order_ = triangles_by_size();
+    const std::vector<std::uint32_t>& order = order_;
     std::vector<Box<3>> boxes;
     for (const std::uint32_t t : order) boxes.push_back(Box<3>::of(given(t)).widened(match_.reach[t]));
-    const BoxTree<3> tree(boxes);
+    const BoxTree<3>& tree = tree_.emplace(boxes);
     std::vector<std::uint8_t> done(order.size(), 0);
+    plane_of_.resize(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) {
       if (done[i]) continue;
       Plane& plane = planes_.emplace_back();
@@ -120,14 +141,18 @@ class FlatLeftovers {
         tree.meeting(boxes[found[k]], [&](std::uint32_t j) {
           if (done[j]) return;
           const double reach = std::max(plane.reach, match_.reach[order[j]]);
-          const auto even = [&](const Point3& x) { return may_be_even(plane.largest, x, reach); };
-          if (!std::ranges::all_of(given(order[j]), even)) return;
+          const auto t = given(order[j]);
+          if (!may_be_even(plane.largest, t, reach) || (PlaneFrame(t).width() > reach && !is_seen(plane, t, reach))) return;
+          if (!touch(given(order[found[k]]), t, reach)) return;
           plane.reach = reach;
           done[j] = 1;
           found.push_back(j);
         });
       }
-      for (const std::uint32_t j : found) add_given(plane, order[j]);
+      for (const std::uint32_t j : found) {
+        plane_of_[j] = static_cast<std::uint32_t>(planes_.size() - 1);
+        add_given(plane, order[j]);
+      }
     }
   }
 
@@ -164,7 +189,7 @@ class FlatLeftovers {
       tree.meeting(plane.box, [&](std::uint32_t s) {
         const auto c = corners(mesh_.subfacets[s].vertices);
         const bool even = std::ranges::all_of(c, [&](const Point3& x) { return is_in(plane, x); });
-        if (even && is_seen(plane, c)) add_changes(plane, mesh_.subfacets[s].vertices, {0, 1});
+        if (even && is_seen(plane, c, plane.reach)) add_changes(plane, mesh_.subfacets[s].vertices, {0, 1});
       });
       for (const auto& [edge, change] : plane.changes) {
         if (change.given != 0) net_.add(edge, plane.reach, false);
@@ -178,14 +203,14 @@ class FlatLeftovers {
   }
 
   /// So small a triangle that stands on a plane may be within reach of it.
-  bool is_seen(const Plane& plane, const std::array<Point3, 3>& t) const {
+  static bool is_seen(const Plane& plane, const std::array<Point3, 3>& t, double reach) {
     const PlaneFrame frame(plane.largest);
     std::array<Point3, 3> flat;
     for (int i = 0; i < 3; ++i) {
       const auto p = frame.place(t[i]);
       flat[i] = {{p[0], p[1], 0}};
     }
-    return PlaneFrame(flat).width() > plane.reach;
+    return PlaneFrame(flat).width() > reach;
   }
 
   void add_subsegments() {
@@ -277,10 +302,15 @@ class FlatLeftovers {
     for (Plane& plane : planes_) {
       task_.findings.heed_stop();
       plane.border.clear();
+      plane.points.clear();
       const Changes changes = pieces(plane);
       if (changes.empty()) continue;
       std::vector<PlanarEdge> edges;
-      for (const auto& [edge, change] : changes) edges.push_back(edge);
+      for (const auto& [edge, change] : changes) {
+        edges.push_back(edge);
+        plane.points.insert(plane.points.end(), edge.begin(), edge.end());
+      }
+      detail::make_set(plane.points);
       if (!build(plane, edges)) {
         if (problem_.status == detail::PlanarStatus::collinear) continue;
         if (!net_.take_apart(problem_)) give_up();
@@ -318,7 +348,22 @@ class FlatLeftovers {
     detail::make_set(kept_);
   }
 
-  /// With all that is kept in its plane, so that walls that stand there, or touch it, have their edges in it.
+  /// Is it a point of the pieces of the plane, or within reach of one of its triangles? Far from these a point that might be in
+  /// one plane with the largest is off it by many times the reach, and an edge that stands there is seen as a point.
+  bool touches(std::uint32_t plane, std::uint32_t v) const {
+    if (std::ranges::binary_search(planes_[plane].points, v)) return true;
+    const Point3& x = walls_.points[v];
+    bool found = false;
+    tree_->at(x, [&](std::uint32_t i) {
+      if (found || plane_of_[i] != plane) return;
+      const auto c = given(order_[i]);
+      const double reach = match_.reach[order_[i]];
+      found = detail::closest_to_triangle(x, c[0], c[1], c[2]).square <= reach * reach;
+    });
+    return found;
+  }
+
+  /// With all that is kept and touches it, so that walls that stand there have their edges in it.
   void append() {
     std::vector<Box<3>> boxes;
     for (const PlanarEdge& e : kept_) {
@@ -327,12 +372,13 @@ class FlatLeftovers {
       boxes.push_back(box);
     }
     const BoxTree<3> tree(boxes);
-    for (const Plane& plane : planes_) {
+    for (std::uint32_t p = 0; p < planes_.size(); ++p) {
+      const Plane& plane = planes_[p];
       if (plane.border.empty()) continue;
       std::vector<PlanarEdge> edges = plane.border;
       tree.meeting(plane.box, [&](std::uint32_t i) {
         const PlanarEdge& e = kept_[i];
-        if (is_in(plane, walls_.points[e[0]]) && is_in(plane, walls_.points[e[1]])) edges.push_back(e);
+        if (touches(p, e[0]) && touches(p, e[1])) edges.push_back(e);
       });
       detail::make_set(edges);
       if (!build(plane, edges)) give_up();
@@ -358,6 +404,9 @@ class FlatLeftovers {
   const GivenMatch<3>& match_;
   VolumeWalls<3>& walls_;
   CornersOfPoints<3> corner_;
+  std::vector<std::uint32_t> order_;     // triangles of which something is left over
+  std::optional<BoxTree<3>> tree_;       // of these, widened by their reach
+  std::vector<std::uint32_t> plane_of_;  // of each of these
   std::vector<Plane> planes_;
   EdgeNet net_;
   std::vector<PlanarEdge> kept_;  // edges of the mesh, and borders of what is left over
