@@ -114,8 +114,13 @@ class CommonLines {
     }
     if (on.size() != 2) return true;
     const double length = detail::distance(on[0], on[1]);
-    const auto part = part_near({on[0], on[1]}, u, reach_);
-    if (!((part[1] - part[0]) * length > 10 * reach_)) return true;
+    // A line along an edge of u, or at a sharp corner, is within reach of edges of u, which are cut out of t anyway.
+    const auto p = frame.place(on[0]), q = frame.place(on[1]);
+    const auto part_of = [&](double reach) {
+      return CoveringTriangle(frame, u, reach, reach_).part_of({{p[0], p[1]}}, {{q[0], q[1]}});
+    };
+    const auto inner = part_of(-reach_), part = part_of(0);
+    if (inner[0] > inner[1] || !((part[1] - part[0]) * length > 10 * reach_)) return true;
     const std::uint32_t a = point_at(detail::on_edge(on[0], on[1], part[0])),
                         b = point_at(detail::on_edge(on[0], on[1], part[1]));
     if (a != b) edges_.push_back({std::min(a, b), std::max(a, b)});

@@ -144,7 +144,7 @@ ClosestPoints<D> closest_to_simplex(const Point<D>& x, const std::array<Point<D>
 template <int D>
 ClosestPoints<D> closest_of_edges(const Point<D>& a, const Point<D>& b, const Point<D>& c, const Point<D>& d) {
   const auto u = difference(b, a), v = difference(d, c), r = difference(a, c);
-  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v), ur = dot(u, r), vr = dot(v, r);
+  const double uu = dot(u, u), vv = dot(v, v), uv = dot(u, v);
   const double determinant = uu * vv - uv * uv;
   ClosestPoints<D> least;
   const auto take = [&](const ClosestPoints<D>& other, bool swapped) {
@@ -157,7 +157,17 @@ ClosestPoints<D> closest_of_edges(const Point<D>& a, const Point<D>& b, const Po
   take(closest_to_edge(c, a, b), true);
   take(closest_to_edge(d, a, b), true);
   if (!(determinant > 0)) return least;
-  const double s = (uv * vr - vv * ur) / determinant, t = (uu * vr - uv * ur) / determinant;
+  const auto solve = [&](const Vector<D>& off) {
+    const double of_u = dot(u, off), of_v = dot(v, off);
+    return std::array{(uv * of_v - vv * of_u) / determinant, (uu * of_v - uv * of_u) / determinant};
+  };
+  // Of edges that cross at a small angle the equations lose its square: what is left of the distance is solved for once more.
+  auto [s, t] = solve(r);
+  Vector<D> left;
+  for (int i = 0; i < D; ++i) left[i] = r[i] + s * u[i] - t * v[i];
+  const auto further = solve(left);
+  s += further[0];
+  t += further[1];
   if (s > 0 && s < 1 && t > 0 && t < 1) take(closest_to_point(on_edge(a, b, s), on_edge(c, d, t)), false);
   return least;
 }
