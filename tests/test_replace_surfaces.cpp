@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -192,6 +193,23 @@ TEST(ReplaceSurface, GoodCornersStayGood) {
     check(plc, out.plc, e, 3);
     EXPECT_GE(out.report.smallest_corner[1], std::min(15.0, out.report.smallest_corner[0])) << e;
   }
+}
+
+// A plate with a rounded corner: two sides of it are one flat group, whose corners move along the curves above and below. What
+// was bent by a millionth of the diagonal stayed a group, however small it was, and the mesher took it for triangles: without a
+// small corner as given 5,080 cells were left over a bound, of a printer's platform as many.
+TEST(ReplaceSurface, FlatGroupsAreFacets) {
+  constexpr int sides = 356;
+  constexpr double radius = 5, length = 310;
+  std::vector<Point2> outline{{{0, 0}}, {{length, 0}}, {{length, length}}};
+  for (int k = 0; k <= sides; ++k) {
+    const double angle = std::numbers::pi / 2 * k / sides;
+    outline.push_back({{radius - radius * std::sin(angle), length - radius + radius * std::cos(angle)}});
+  }
+  const auto made = replaced(test::prism(outline, 3), 0.4384);
+  EXPECT_EQ(made.report.sharp_triangles[1], 0u);
+  const Domain<3> domain(made.plc);
+  EXPECT_TRUE(std::ranges::none_of(domain.warnings(), [](const Diagnostic& d) { return d.code == Errc::bent_facet; }));
 }
 
 /// The same for any order of points, facets and corners.

@@ -5,17 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "join/numbers.hpp"
 #include "join/planar_parts.hpp"
 #include "pgdr/predicates.hpp"
 
 namespace pgdr::detail {
-namespace {
-
-// A polygon may be off its plane by this part of its extent, as files with few digits leave it; what is bent by more is
-// several facets. TetGen takes triangles for coplanar that meet at up to 0.1 degrees, about 1.7e-3 of their extent.
-constexpr double most_bend = 1e-4;
-
-}  // namespace
 
 TriangulatedFacets FacetTriangulator::run() {
   out_.faces.facets.reserve(in_.plc.facets.size());
@@ -88,7 +82,7 @@ void FacetTriangulator::add_polygons(std::uint32_t f) {
   out.count = static_cast<std::uint32_t>(triangles.size());
   measure_planarity(out, facet, in_.points, shapes_, faces);
   out.reversed = is_reversed(facet);
-  if (out.defect > most_bend * facet.extent(in_.points)) {
+  if (out.defect > numbers::most_bend * facet.extent(in_.points)) {
     add_planar_parts(out, facet, in_.points, shapes_, faces);
     report_.repairs.bent_facets.add([&] { return std::to_string(report_.number(f)); }, {report_.number(f)});
     return;

@@ -13,4 +13,8 @@ namespace pgdr::numbers {
 /// along each axis, which may be less by a factor of the square root of the dimension.
 inline constexpr std::size_t most_compared = 256;
 
+/// Of its extent, what a polygon may be off its plane, as files with few digits leave it; what is bent by more is several facets.
+/// TetGen takes triangles for coplanar that meet at up to 0.1 degrees, about 1.7e-3 of their extent.
+inline constexpr double most_bend = 1e-4;
+
 }  // namespace pgdr::numbers

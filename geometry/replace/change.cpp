@@ -136,7 +136,8 @@ bool regroup(const SurfaceComplex& s, SurfaceChange& change) {
     if (face.group != no_index) {
       const FlatGroup& group = s.groups[face.group];
       const auto t = triangle_after(s, change, face);
-      const bool is_near = std::all_of(t.begin(), t.end(), [&](const Point3& p) { return height_over(group, p) <= s.flatness; });
+      const bool is_near = std::all_of(t.begin(), t.end(),
+                                       [&](const Point3& p) { return height_over(group, p) <= group.flatness; });
       const Sign way = projected(s.triangle(change.from[k]), group.axis);
       if (!is_near || way == Sign::zero || projected(t, group.axis) != way) face.group = no_index;
     }

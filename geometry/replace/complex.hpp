@@ -54,6 +54,7 @@ struct FlatGroup {
   Point3 anchor;         ///< on the plane
   Vector<3> normal{};    ///< of length 1
   int axis = 2;          ///< the coordinate dropped in its projection
+  double flatness = 0;   ///< its corners are no farther from the plane
   bool is_wide = false;  ///< it may not be broken
 };
 
@@ -70,7 +71,6 @@ class SurfaceComplex {
   std::vector<SurfaceClass> classes;
   std::vector<SurfaceCurve> curves;
   std::vector<FlatGroup> groups;
-  double flatness = 0;  ///< corners of a group are no farther from its plane
 
   const Point3& at(std::uint32_t v) const { return points[v]; }
   std::array<Point3, 3> triangle(std::uint32_t f) const {
@@ -161,7 +161,7 @@ struct LoosePieces {
 /// @param tolerance  E
 SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, const SurfaceOptions& options,
                             LoosePieces& loose, std::uint64_t& crease_count);
-/// Finds the flat groups. @param flatness  as SurfaceComplex::flatness
+/// Finds the flat groups. @param flatness  corners of a group are no farther from its plane
 void find_groups(SurfaceComplex& surface, double flatness, double tolerance);
 
 }  // namespace pgdr::detail

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "input/diagonal.hpp"
+#include "join/numbers.hpp"
 #include "pgdr/predicates.hpp"
 #include "replace/complex.hpp"
 #include "replace/numbers.hpp"
@@ -18,7 +19,8 @@ namespace {
 
 class GroupFinder {
  public:
-  GroupFinder(SurfaceComplex& surface, double tolerance) : s_(surface), tolerance_(tolerance), looked_(surface.faces.size()) {}
+  GroupFinder(SurfaceComplex& surface, double flatness, double tolerance)
+      : s_(surface), flatness_(flatness), tolerance_(tolerance), looked_(surface.faces.size()) {}
 
   void find() {
     std::vector<double> areas(s_.faces.size());
@@ -50,6 +52,8 @@ class GroupFinder {
     return axis;
   }
 
+  /// The mesher takes a polygon for one facet if it is bent by no more than a part of its extent, which is known once it has
+  /// grown: it grows anew within that, until it is as large as what it may be off its plane says.
   void grow(std::uint32_t seed) {
     FlatGroup group;
     group.normal = normal_of(seed);
@@ -59,12 +63,27 @@ class GroupFinder {
     sort_corners(t);
     group.anchor = t[0];
     group.axis = largest_axis(group.normal);
-    std::vector<std::array<std::uint32_t, 3>> stack;  // corners, one way round
-    std::vector<std::uint32_t> members{seed};
+    group.flatness = flatness_;
     looked_[seed] = true;
+    while (true) {
+      const std::vector<std::uint32_t> members = members_of(group, seed);
+      if (members.size() < 2) return;
+      Box<3> box = Box<3>::empty();
+      for (const std::uint32_t f : members)
+        for (const Point3& p : s_.triangle(f)) box.add(p);
+      const double bend = numbers::group_bend * numbers::most_bend * box.longest_side();
+      if (group.flatness <= bend) return add(group, members);
+      group.flatness = bend;
+      for (const std::uint32_t f : members) looked_[f] = f == seed;
+    }
+  }
+
+  /// All that hangs together with a face, within what the group may be off its plane.
+  std::vector<std::uint32_t> members_of(const FlatGroup& group, std::uint32_t seed) {
+    std::vector<std::uint32_t> members{seed};
     const auto& corners = s_.faces[seed].corners;
     const Sign way = orient_projected(s_.at(corners[0]), s_.at(corners[1]), s_.at(corners[2]), group.axis);
-    if (way == Sign::zero) return;
+    if (way == Sign::zero) return members;
     for (std::size_t next = 0; next < members.size(); ++next) {
       const auto c = s_.faces[members[next]].corners;
       const bool turned = orient_projected(s_.at(c[0]), s_.at(c[1]), s_.at(c[2]), group.axis) != way;
@@ -74,13 +93,13 @@ class GroupFinder {
         const std::uint32_t g = s_.beyond(members[next], a, b);
         if (g == no_index || looked_[g]) continue;
         const std::uint32_t d = corner_beside(s_.faces[g].corners, a, b);
-        if (height_over(group, s_.at(d)) > s_.flatness) continue;
+        if (height_over(group, s_.at(d)) > group.flatness) continue;
         if (orient_projected(s_.at(b), s_.at(a), s_.at(d), group.axis) != way) continue;
         looked_[g] = true;
         members.push_back(g);
       }
     }
-    if (members.size() > 1) add(group, members);
+    return members;
   }
 
   void add(FlatGroup group, const std::vector<std::uint32_t>& members) {
@@ -98,15 +117,12 @@ class GroupFinder {
   }
 
   SurfaceComplex& s_;
-  double tolerance_;
+  double flatness_, tolerance_;
   std::vector<bool> looked_;
 };
 
 }  // namespace
 
-void find_groups(SurfaceComplex& surface, double flatness, double tolerance) {
-  surface.flatness = flatness;
-  GroupFinder(surface, tolerance).find();
-}
+void find_groups(SurfaceComplex& surface, double flatness, double tolerance) { GroupFinder(surface, flatness, tolerance).find(); }
 
 }  // namespace pgdr::detail
