@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replace/change.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "pgdr/predicates.hpp"
+#include "replace/numbers.hpp"
+#include "replace/shape.hpp"
 #include "space/triangle.hpp"
 
 namespace pgdr::detail {
@@ -128,20 +132,80 @@ SurfaceChange split(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b, c
   return change;
 }
 
-bool regroup(const SurfaceComplex& s, SurfaceChange& change) {
+namespace {
+
+/// All of a flat group that hangs together with a face.
+std::vector<std::uint32_t> part_of_group(const SurfaceView& view, std::uint32_t face) {
+  std::vector<std::uint32_t> part{face};
+  for (std::size_t next = 0; next < part.size(); ++next) {
+    const auto& c = view.face(part[next]).corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = c[i], b = c[(i + 1) % 3];
+      if (view.is_kept(a, b)) continue;
+      const std::uint32_t g = view.beyond(part[next], a, b);
+      if (g == no_index || view.face(g).group != view.face(face).group) continue;
+      if (std::find(part.begin(), part.end(), g) == part.end()) part.push_back(g);
+    }
+  }
+  return part;
+}
+
+/// Does the mesher take the part of a group that a face is in for one facet? It must not be bent more than that.
+bool is_one_facet(const SurfaceComplex& s, const SurfaceView& view, std::uint32_t face, Box<3>& read) {
+  Box<3> box = Box<3>::empty();
+  std::vector<std::array<Point3, 3>> triangles;
+  for (const std::uint32_t f : part_of_group(view, face)) {
+    const auto& c = view.face(f).corners;
+    triangles.push_back({view.at(c[0]), view.at(c[1]), view.at(c[2])});
+    sort_corners(triangles.back());
+    for (const Point3& p : triangles.back()) box.add(p);
+  }
+  read.add(box);
+  const auto normal_of = [](const auto& t) { return cross(difference(t[1], t[0]), difference(t[2], t[0])); };
+  const auto largest = *std::max_element(triangles.begin(), triangles.end(), [&](const auto& t, const auto& u) {
+    const auto m = normal_of(t), n = normal_of(u);
+    return dot(m, m) != dot(n, n) ? dot(m, m) < dot(n, n) : triangle_less(t, u);
+  });
+  const auto n = normal_of(largest);
+  const double most = most_bend_of(s, box) * std::sqrt(dot(n, n));
+  return std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    return std::all_of(t.begin(), t.end(), [&](const Point3& p) { return std::fabs(dot(n, difference(p, largest[0]))) <= most; });
+  });
+}
+
+/// Takes faces that come out of groups that would be bent too much.
+void drop_bent(const SurfaceComplex& s, SurfaceChange& change, Box<3>& read) {
+  const SurfaceView after(s, &change);
+  for (std::size_t k = 0; k < change.come.size(); ++k) {
+    const std::uint32_t g = change.come[k].group;
+    if (g == no_index) continue;
+    const auto t = triangle_after(s, change, change.come[k]);
+    const double surely = numbers::surely_flat * s.groups[g].bend;
+    if (std::all_of(t.begin(), t.end(), [&](const Point3& p) { return height_over(s.groups[g], p) <= surely; })) continue;
+    if (is_one_facet(s, after, static_cast<std::uint32_t>(s.faces.size() + k), read)) continue;
+    for (SurfaceFace& face : change.come)
+      if (face.group == g) face.group = no_index;
+  }
+}
+
+}  // namespace
+
+bool regroup(const SurfaceComplex& s, SurfaceChange& change, Box<3>& read) {
   const auto projected = [](const std::array<Point3, 3>& t, int axis) { return orient_projected(t[0], t[1], t[2], axis); };
   for (std::size_t k = 0; k < change.come.size(); ++k) {
     SurfaceFace& face = change.come[k];
-    const std::uint32_t before = s.faces[change.from[k]].group;
     if (face.group != no_index) {
       const FlatGroup& group = s.groups[face.group];
       const auto t = triangle_after(s, change, face);
-      const bool is_near = std::all_of(t.begin(), t.end(),
-                                       [&](const Point3& p) { return height_over(group, p) <= group.flatness; });
+      const bool is_near = std::all_of(t.begin(), t.end(), [&](const Point3& p) { return height_over(group, p) <= s.flatness; });
       const Sign way = projected(s.triangle(change.from[k]), group.axis);
       if (!is_near || way == Sign::zero || projected(t, group.axis) != way) face.group = no_index;
     }
-    if (face.group == no_index && before != no_index && s.groups[before].is_wide) return false;
+  }
+  drop_bent(s, change, read);
+  for (std::size_t k = 0; k < change.come.size(); ++k) {
+    const std::uint32_t before = s.faces[change.from[k]].group;
+    if (change.come[k].group == no_index && before != no_index && s.groups[before].is_wide) return false;
   }
   if (change.kind != SurfaceChange::Kind::flip) return true;
   for (const std::uint32_t f : change.gone) {  // both faces stand for the first one, above

@@ -47,8 +47,9 @@ SurfaceChange move(const SurfaceComplex& s, std::uint32_t v, const Point3& place
 /// A new vertex on an edge.
 SurfaceChange split(const SurfaceComplex& s, std::uint32_t a, std::uint32_t b, const Point3& place);
 
-/// Takes the faces out of their flat groups that are no part of these any more. @returns false if that breaks a wide one
-bool regroup(const SurfaceComplex& s, SurfaceChange& change);
+/// Takes the faces out of their flat groups that are no part of these any more. @param read  what was looked at is added
+/// @returns false if that breaks a wide one
+bool regroup(const SurfaceComplex& s, SurfaceChange& change, Box<3>& read);
 
 /// Where a vertex is after the change.
 inline const Point3& place_after(const SurfaceComplex& s, const SurfaceChange& c, std::uint32_t v) {

@@ -67,9 +67,9 @@ bool Changer::are_edges_short(const SurfaceChange& change) const {
   return true;
 }
 
-Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal) const {
+Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal, Box<3>& read) const {
   const SurfaceComplex& s = s_.complex;
-  if (!regroup(s, change) || !are_corners_fine(change, goal)) return Verdict::angle;
+  if (!regroup(s, change, read) || !are_corners_fine(change, goal)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
   if (goal.rule == CornerRule::coarsen && expected_growth(s, change).cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
     return Verdict::cells;
@@ -90,7 +90,7 @@ Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& tria
     for (const std::uint32_t f : change.gone) box.add(s_.boxes[f]);
     trial.read.add(Box<3>::around(change.place).widened(box.longest_side()));
   }
-  const Verdict verdict = verdict_of(change, goal);
+  const Verdict verdict = verdict_of(change, goal, trial.read);
   if (verdict == Verdict::yes)
     trial.change = std::move(change);
   else

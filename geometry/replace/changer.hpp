@@ -97,7 +97,7 @@ class Changer {
   const std::vector<std::uint32_t>& last() const { return last_; }
 
  private:
-  Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal) const;
+  Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal, Box<3>& read) const;
   bool are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const;
   bool are_edges_short(const SurfaceChange& change) const;
   void make(const SurfaceChange& change);

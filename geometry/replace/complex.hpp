@@ -15,6 +15,7 @@
 #include "numbers/vectors.hpp"
 #include "pgdr/domain.hpp"
 #include "pgdr/surface.hpp"
+#include "space/box.hpp"
 
 namespace pgdr::detail {
 
@@ -54,7 +55,7 @@ struct FlatGroup {
   Point3 anchor;         ///< on the plane
   Vector<3> normal{};    ///< of length 1
   int axis = 2;          ///< the coordinate dropped in its projection
-  double flatness = 0;   ///< its corners are no farther from the plane
+  double bend = 0;       ///< most_bend_of() it as given
   bool is_wide = false;  ///< it may not be broken
 };
 
@@ -71,6 +72,8 @@ class SurfaceComplex {
   std::vector<SurfaceClass> classes;
   std::vector<SurfaceCurve> curves;
   std::vector<FlatGroup> groups;
+  double flatness = 0;  ///< corners of a group are no farther from its plane, however large it is
+  double joined = 0;    ///< what is within this of one plane is one facet of the input
 
   const Point3& at(std::uint32_t v) const { return points[v]; }
   std::array<Point3, 3> triangle(std::uint32_t f) const {
@@ -150,6 +153,9 @@ inline double height_over(const FlatGroup& g, const Point3& p) {
   return h < 0 ? -h : h;
 }
 
+/// What corners of a group of this box may be off the plane of its largest face, so that the mesher takes it for one facet.
+double most_bend_of(const SurfaceComplex& s, const Box<3>& box);
+
 /// What does not change: segments without faces, and points of neither.
 struct LoosePieces {
   std::vector<std::array<std::uint32_t, 2>> edges;
@@ -161,7 +167,7 @@ struct LoosePieces {
 /// @param tolerance  E
 SurfaceComplex make_complex(const Plc<3>& input, const Domain<3>& domain, double tolerance, const SurfaceOptions& options,
                             LoosePieces& loose, std::uint64_t& crease_count);
-/// Finds the flat groups. @param flatness  corners of a group are no farther from its plane
-void find_groups(SurfaceComplex& surface, double flatness, double tolerance);
+/// Finds the flat groups. @param flatness, joined  as of SurfaceComplex
+void find_groups(SurfaceComplex& surface, double flatness, double joined, double tolerance);
 
 }  // namespace pgdr::detail

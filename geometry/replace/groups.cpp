@@ -19,8 +19,7 @@ namespace {
 
 class GroupFinder {
  public:
-  GroupFinder(SurfaceComplex& surface, double flatness, double tolerance)
-      : s_(surface), flatness_(flatness), tolerance_(tolerance), looked_(surface.faces.size()) {}
+  GroupFinder(SurfaceComplex& surface, double tolerance) : s_(surface), tolerance_(tolerance), looked_(surface.faces.size()) {}
 
   void find() {
     std::vector<double> areas(s_.faces.size());
@@ -63,23 +62,21 @@ class GroupFinder {
     sort_corners(t);
     group.anchor = t[0];
     group.axis = largest_axis(group.normal);
-    group.flatness = flatness_;
     looked_[seed] = true;
-    while (true) {
-      const std::vector<std::uint32_t> members = members_of(group, seed);
+    for (double flatness = s_.flatness; true; flatness = group.bend) {
+      const std::vector<std::uint32_t> members = members_of(group, seed, flatness);
       if (members.size() < 2) return;
       Box<3> box = Box<3>::empty();
       for (const std::uint32_t f : members)
         for (const Point3& p : s_.triangle(f)) box.add(p);
-      const double bend = numbers::group_bend * numbers::most_bend * box.longest_side();
-      if (group.flatness <= bend) return add(group, members);
-      group.flatness = bend;
+      group.bend = most_bend_of(s_, box);
+      if (flatness <= group.bend) return add(group, members);
       for (const std::uint32_t f : members) looked_[f] = f == seed;
     }
   }
 
   /// All that hangs together with a face, within what the group may be off its plane.
-  std::vector<std::uint32_t> members_of(const FlatGroup& group, std::uint32_t seed) {
+  std::vector<std::uint32_t> members_of(const FlatGroup& group, std::uint32_t seed, double flatness) {
     std::vector<std::uint32_t> members{seed};
     const auto& corners = s_.faces[seed].corners;
     const Sign way = orient_projected(s_.at(corners[0]), s_.at(corners[1]), s_.at(corners[2]), group.axis);
@@ -93,7 +90,7 @@ class GroupFinder {
         const std::uint32_t g = s_.beyond(members[next], a, b);
         if (g == no_index || looked_[g]) continue;
         const std::uint32_t d = corner_beside(s_.faces[g].corners, a, b);
-        if (height_over(group, s_.at(d)) > group.flatness) continue;
+        if (height_over(group, s_.at(d)) > flatness) continue;
         if (orient_projected(s_.at(b), s_.at(a), s_.at(d), group.axis) != way) continue;
         looked_[g] = true;
         members.push_back(g);
@@ -117,12 +114,20 @@ class GroupFinder {
   }
 
   SurfaceComplex& s_;
-  double flatness_, tolerance_;
+  double tolerance_;
   std::vector<bool> looked_;
 };
 
 }  // namespace
 
-void find_groups(SurfaceComplex& surface, double flatness, double tolerance) { GroupFinder(surface, flatness, tolerance).find(); }
+double most_bend_of(const SurfaceComplex& s, const Box<3>& box) {
+  return std::max(s.joined, numbers::group_bend * numbers::most_bend * box.longest_side());
+}
+
+void find_groups(SurfaceComplex& surface, double flatness, double joined, double tolerance) {
+  surface.flatness = std::max(flatness, joined);
+  surface.joined = joined;
+  GroupFinder(surface, tolerance).find();
+}
 
 }  // namespace pgdr::detail

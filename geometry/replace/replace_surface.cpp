@@ -81,8 +81,7 @@ ReplacedSurface replaced(const Plc<3>& input, const SurfaceOptions& options) {
   detail::LoosePieces loose;
   auto complex = detail::make_complex(input, domain, report.used, options, loose, report.creases);
   const double diagonal = detail::diagonal_of(detail::Box<3>::of(domain.points()));
-  detail::find_groups(complex, std::max(domain.tolerance(), std::min(numbers::flat_part * diagonal, report.used / 2)),
-                      report.used);
+  detail::find_groups(complex, std::min(numbers::flat_part * diagonal, report.used / 2), domain.tolerance(), report.used);
   std::vector<Point3> seeds(input.holes);
   for (const auto& r : input.regions) seeds.push_back(r.point);
   detail::ChangingSurface surface(std::move(complex), std::move(loose), std::move(seeds));
