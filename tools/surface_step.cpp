@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "pgdr/domain.hpp"
 #include "surface_output.hpp"
 #include "surface_tolerance.hpp"
 
@@ -57,7 +58,7 @@ SurfaceStep replace_surface(const Plc<3>& plc, const SurfaceArguments& arguments
   options.stop = stop;
   options.size = size_of(bounds);
   SurfaceStep step{*arguments.tolerance, pgdr::replace_surface(plc, options), surface_counts(plc), {}};
-  step.after = surface_counts(step.replaced.plc);
+  step.after = surface_counts(Domain<3>(step.replaced.plc, stop));
   if (!arguments.output.empty()) write_surface(arguments.output, step.replaced.plc);
   return step;
 }

@@ -23,7 +23,7 @@ Sign way_of(const SurfaceComplex& s, const FlatGroup& group, std::uint32_t f) {
 
 std::optional<Plc<3>::Facet> polygon_of(const SurfaceComplex& s, std::span<const std::uint32_t> faces) {
   const FlatGroup& group = s.groups[s.faces[faces[0]].group];
-  FlatRim rim{.axis = group.axis, .anchor = group.anchor, .normal = group.normal};
+  FlatRim rim{.axis = group.axis, .anchor = group.anchor, .normal = group.normal, .may_touch_itself = true};
   rim.way = way_of(s, group, *std::min_element(faces.begin(), faces.end(), [&](std::uint32_t a, std::uint32_t b) {
                      return triangle_less(s.triangle(a), s.triangle(b));
                    }));
