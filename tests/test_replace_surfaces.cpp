@@ -241,6 +241,29 @@ TEST(ReplaceSurface, RimsMayTouchThemselves) {
   check(given, made.plc, 0.01);
 }
 
+// A point inside of a facet that is bent there by less than counts. It came as a point of no facet, beside the polygon by as
+// much, and cells were as thin. With a marker it is to stay: the polygon has it.
+TEST(ReplaceSurface, PointsInsideOfPolygons) {
+  for (const int marker : {0, 5}) {
+    Plc<3> given;
+    test::add_box(given, {{0, 0, 0}}, {{2, 2, 2}});
+    const auto top = given.facets.back().polygons[0];
+    given.facets.pop_back();
+    const Index middle = test::add_point(given, {{1, 1, 2 + 1e-7}});
+    for (std::size_t k = 0; k < 4; ++k) test::add_polygon(given, {top[k], top[(k + 1) % 4], middle}, 0);
+    given.point_markers.assign(given.points.size(), 0);
+    given.point_markers[middle] = marker;
+    SurfaceOptions options;
+    options.tolerance = 0.01;
+    options.size = [](const Point3&) { return 0.6; };  // so that it is not contracted
+    const Plc<3> made = replace_surface(given, options).plc;
+    EXPECT_EQ(made.facets.size(), 6u);
+    EXPECT_EQ(made.points.size(), marker == 0 ? 8u : 9u);
+    EXPECT_EQ(std::ranges::count_if(made.facets, [](const auto& f) { return f.polygons.back().size() == 1; }),
+              marker == 0 ? 0 : 1);
+  }
+}
+
 /// The same for any order of points, facets and corners.
 TEST(ReplaceSurface, NumbersAreNoMatter) {
   const Plc<3> given = relief(12, [](double x, double y) { return 0.1 * std::sin(7 * x) * std::sin(5 * y + x); });

@@ -7,6 +7,7 @@
 
 #include "pgdr/predicates.hpp"
 #include "replace/flat_polygon.hpp"
+#include "space/make_set.hpp"
 
 namespace pgdr::detail {
 namespace {
@@ -17,6 +18,21 @@ using Edge = std::array<std::uint32_t, 2>;
 Sign way_of(const SurfaceComplex& s, const FlatGroup& group, std::uint32_t f) {
   const auto& c = s.faces[f].corners;
   return orient_projected(s.at(c[0]), s.at(c[1]), s.at(c[2]), group.axis);
+}
+
+/// Points inside of the part, of which others have one, or which are there for themselves: the part has them, though they may be
+/// off its plane by more than rounding.
+std::vector<std::uint32_t> touched_inside(const SurfaceComplex& s, std::span<const std::uint32_t> faces, const FlatRim& rim) {
+  std::vector<std::uint32_t> points, on_edges;
+  for (const std::uint32_t f : faces)
+    for (const std::uint32_t v : s.faces[f].corners)
+      if (s.order[v] == VertexOrder::fixed) points.push_back(v);
+  for (const auto* edges : {&rim.rim, &rim.inner})
+    for (const PlanarEdge& e : *edges) on_edges.insert(on_edges.end(), e.begin(), e.end());
+  make_set(points);
+  make_set(on_edges);
+  std::erase_if(points, [&](std::uint32_t v) { return std::ranges::binary_search(on_edges, v); });
+  return points;
 }
 
 }  // namespace
@@ -40,7 +56,10 @@ std::optional<Plc<3>::Facet> polygon_of(const SurfaceComplex& s, std::span<const
     }
   }
   for (const auto& [key, e] : open) rim.rim.push_back(e);
-  return polygon_of(s.points, rim);
+  auto facet = polygon_of(s.points, rim);
+  if (facet)
+    for (const std::uint32_t v : touched_inside(s, faces, rim)) facet->polygons.push_back({v});
+  return facet;
 }
 
 }  // namespace pgdr::detail

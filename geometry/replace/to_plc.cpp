@@ -119,6 +119,32 @@ void add_segments(const SurfaceComplex& s, const std::vector<std::uint32_t>& num
   std::sort(plc.segments.begin(), plc.segments.end(), [](const auto& a, const auto& b) { return a.points < b.points; });
 }
 
+/// Leaves out the points inside of polygons: beside one, by what it is bent, they were points of their own.
+void drop_points_inside(const LoosePieces& loose, SurfacePlc& out) {
+  constexpr std::uint32_t unused = no_index;
+  std::vector<std::uint32_t> number(out.plc.points.size(), unused);
+  const auto each_corner = [&out](const auto& f) {
+    for (auto& facet : out.plc.facets)
+      for (auto& polygon : facet.polygons)
+        for (std::uint32_t& v : polygon) f(v);
+    for (auto& segment : out.plc.segments)
+      for (std::uint32_t& v : segment.points) f(v);
+  };
+  each_corner([&](std::uint32_t v) { number[v] = 0; });
+  std::vector<std::uint32_t> alone(loose.points);
+  std::sort(alone.begin(), alone.end());
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    if (number[i] == unused && !std::ranges::binary_search(alone, out.vertex_of_point[i])) continue;
+    number[i] = count;
+    out.plc.points[count] = out.plc.points[i];
+    out.vertex_of_point[count++] = out.vertex_of_point[i];
+  }
+  out.plc.points.resize(count);
+  out.vertex_of_point.resize(count);
+  each_corner([&](std::uint32_t& v) { v = number[v]; });
+}
+
 }  // namespace
 
 SurfacePlc to_plc(const SurfaceComplex& surface, const LoosePieces& loose) {
@@ -131,6 +157,7 @@ SurfacePlc to_plc(const SurfaceComplex& surface, const LoosePieces& loose) {
   }
   add_facets(surface, number, out);
   add_segments(surface, number, out.plc);
+  drop_points_inside(loose, out);
   return out;
 }
 
