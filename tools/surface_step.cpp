@@ -16,9 +16,9 @@
 namespace pgdr::tool {
 namespace {
 
-/// Triangles of 14.5 degrees are too sharp for the bound of 15 on dihedral angles; beyond a larger one there is as much headroom
-/// as is usual.
-constexpr double usual_wanted_corner = 25, headroom = 10;
+/// The circumradius of a triangle of 30 degrees is its shortest edge. Triangles of 14.5 degrees are too sharp for the bound of 15
+/// on dihedral angles; beyond a larger one there is some headroom, too.
+constexpr double usual_wanted_corner = 30, headroom = 10;
 
 JsonObject refusals(const SurfaceReport::Refused& r) {
   return {{"angle", r.angle},       {"fold", r.fold},   {"cells", r.cells}, {"size", r.size},

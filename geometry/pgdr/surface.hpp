@@ -23,7 +23,7 @@ namespace pgdr PGDR_API {
 struct SurfaceOptions {
   double tolerance = 0;       ///< E, an absolute length in the units of the coordinates: most that one surface is from the other
   double feature_angle = 40;  ///< degrees: facets of one marker whose normals differ by more meet at a crease; 180: none do
-  double wanted_corner = 25;  ///< degrees: angles of facets that are smaller are made larger where that is possible
+  double wanted_corner = 30;  ///< degrees: angles of facets that are smaller are made larger where that is possible
   /// The size that a mesh is to have here: no edge is made longer than twice the size at its ends. Empty: E alone limits. Several
   /// threads may call it at once, as they do a SizingField: it has to be the same for the same point whoever asks.
   std::function<double(const Point3&)> size;

@@ -48,9 +48,6 @@ inline constexpr double outline_gap = 30;
 inline constexpr std::size_t first_parts = 60, first_parts_each = 4;
 inline constexpr std::size_t more_parts = 300, more_parts_each = 10;
 
-/// Degrees: a corner of a patch that is coarsened may shrink to this. At 20 one good coarse surface went from 2,518 to 3,782
-/// cells, at 28 to 3,506, at 34 to 2,806; others do not care.
-inline constexpr double coarse_corner = 30;
 /// Degrees: corners between two kept edges may shrink to this. Without a rule creases are bent until they meet at 8 degrees.
 inline constexpr double kept_corner = 29;
 /// Degrees: corners beyond the rim of a patch may shrink to this; what is larger makes no poor cell by itself.

@@ -192,7 +192,7 @@ def mesh(plc: Union[Plc, Sequence[Plc]], *, min_angle: Optional[float] = None, r
     surface: Optional[Dict[str, Any]] = None
     sides = sides_of(periodic, dimension)
     if surface_tolerance is not None:
-        wanted = max(25.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
+        wanted = max(30.0, _arguments.number("min_dihedral", min_dihedral or 0) + 10)
         given_tolerance = plc.tolerance
         plc, _, surface = replace_surface(plc, surface_tolerance, feature_angle=feature_angle, wanted_corner=wanted,
                                           fixed_markers=[marker for side in sides for marker in side[:2]])

@@ -23,7 +23,7 @@ class ReplacedSurface(NamedTuple):
 
 
 def replace_surface(plc: Plc, tolerance: Union[float, str], *, feature_angle: float = 40.0,
-                    wanted_corner: float = 25.0, fixed_markers: Sequence[int] = ()) -> ReplacedSurface:
+                    wanted_corner: float = 30.0, fixed_markers: Sequence[int] = ()) -> ReplacedSurface:
     """3D: another surface in the place of the input's, without its needles, within a distance of it both ways and marker by marker,
     with its topology, creases, segments and volumes (docs/surface.md). Any thread; other Python threads run meanwhile.
 
