@@ -41,12 +41,16 @@ struct WaitingFace {
 /// it would find out itself, so that nothing depends on who was first. Any number of threads may ask and note at once.
 class RefusedMoves {
  public:
-  using State = std::array<std::uint64_t, 2>;  ///< the youngest face at the vertex, and a hash of the youngest at those about it
+  /// The youngest face at the vertex, and a hash of the youngest at those about it, and of what is known of their groups.
+  using State = std::array<std::uint64_t, 2>;
 
   static State state_about(const SurfaceComplex& s, std::uint32_t v) {
     std::uint64_t hash = 0;
-    for (const std::uint32_t f : s.faces_at[v])
-      for (const std::uint32_t w : s.faces[f].corners) hash = (hash ^ s.youngest_at(w)) * 0x100000001b3u;
+    const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3u; };
+    for (const std::uint32_t f : s.faces_at[v]) {
+      for (const std::uint32_t w : s.faces[f].corners) add(s.youngest_at(w));
+      if (s.faces[f].group != no_index) add(s.groups[s.faces[f].group].changes);
+    }
     return {s.youngest_at(v), hash};
   }
 
