@@ -251,7 +251,8 @@ void NamedEntities<D>::fill_facet(std::span<const std::uint32_t> members, NamedE
         is_level[k] = is_level[k] && boxes.back().low[k] == boxes[0].low[k] && boxes.back().high[k] == boxes[0].low[k];
     }
     out.is_loose = out.off > 1.5 * input_.reach();
-    if (is_level[0] || is_level[1] || is_level[2]) out.off = 0;
+    // In a level plane all points are, exactly; but of the mesh's own surface those on edges are rounded along it.
+    if (!own_ && (is_level[0] || is_level[1] || is_level[2])) out.off = 0;
     std::sort(out.edges.begin(), out.edges.end());
     std::sort(out.at.begin(), out.at.end());
     detail::make_set(out.points);
