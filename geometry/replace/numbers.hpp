@@ -30,11 +30,11 @@ inline constexpr double corner_edges = 0.5;
 /// Of the diagonal of all points: faces whose corners are as near to a plane are one flat group. A file of six digits is noise of
 /// that size. At most half of E, as a polygon can be triangulated in several ways.
 inline constexpr double flat_part = 1e-6;
-/// Of what a polygon may be bent to be one facet: corners of a group may be as far off the plane of its largest face. The mesher's
-/// own triangles have other diagonals: of four corners its largest may be half as large.
+/// Of what a polygon may be bent to be one facet: corners of a group may be as far off the plane of its largest face. The
+/// mesher's own triangles have other diagonals: of four corners its largest may be half as large.
 inline constexpr double group_bend = 0.5;
-/// Of that: as near to the plane of the group as given nobody has to look. Four corners that are so far off it on alternating sides
-/// are four times as far off that of three of them.
+/// Of that: as near to the plane of the group as given nobody has to look. Four corners that are so far off it on alternating
+/// sides are four times as far off that of three of them.
 inline constexpr double surely_flat = 0.25;
 /// Of E: a flat group whose area over the diagonal of its box is larger may not be broken. Narrow ones are mostly chance, two
 /// triangles of a curved face. None may be broken: 86 and 229 cells stay over a bound on two models; all may: 602 on one where
