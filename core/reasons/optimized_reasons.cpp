@@ -10,6 +10,7 @@
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
+#include "reasons/meshed_segments.hpp"
 #include "rule/insertion_rule.hpp"
 
 namespace pgdr {
@@ -53,8 +54,10 @@ OptimizedReasons::OptimizedReasons(const Mesh<3>& mesh, const Domain<3>& domain,
       segments_at_(domain.points().size()) {
   for (const Point3& p : domain.points())
     for (const double x : p.x) largest_ = std::max(largest_, std::abs(x));
+  const std::vector<std::uint8_t> has_segment = meshed_segments<3>(mesh, domain, meshed);
   for (EntityId s = 0; s < domain.segments().size(); ++s)
-    for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
+    if (has_segment.empty() || has_segment[s] != 0)
+      for (const std::uint32_t p : domain.segments()[s].points) segments_at_[p].push_back(s);
 }
 
 DomainReason OptimizedReasons::small_angle(EntityKind kind, const Pair& pair) const {

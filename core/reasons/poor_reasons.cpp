@@ -13,6 +13,7 @@
 #include "numbers/exact_tests.hpp"
 #include "numbers/rounding.hpp"
 #include "pgdr/refine_options.hpp"
+#include "reasons/meshed_segments.hpp"
 #include "rule/insertion_rule.hpp"
 #include "rule/sizes_of_cells.hpp"
 #include "space/sort_by_points.hpp"
@@ -131,7 +132,8 @@ template <int D>
 template <class F>
 bool PoorReasons<D>::any_entity_of(Home of, F f) const {
   const auto any_at_segment = [&](EntityId s) {
-    if (f({EntityKind::segment, s})) return true;
+    const bool is_meshed = meshed_segments_.empty() || meshed_segments_[s] != 0;
+    if (is_meshed && f({EntityKind::segment, s})) return true;
     const auto facets = domain_->facets_of_segment(s);
     return std::any_of(facets.begin(), facets.end(), [&](EntityId x) { return f({EntityKind::facet, x}); });
   };
@@ -205,7 +207,12 @@ DomainReason PoorReasons<D>::explain(CellId c, bool beside) const {
 template <int D>
 PoorReasons<D>::PoorReasons(const Mesh<D>& mesh, const Domain<D>& domain, const CellBounds<D>& bounds,
                             const KeptEntities<D>& kept, CountedTriangles meshed, const detail::Bulk& bulk)
-    : mesh_(&mesh), domain_(&domain), bounds_(&bounds), kept_(&kept), meshed_(meshed) {
+    : mesh_(&mesh),
+      domain_(&domain),
+      bounds_(&bounds),
+      kept_(&kept),
+      meshed_(meshed),
+      meshed_segments_(meshed_segments<D>(mesh, domain, meshed)) {
   const auto ends = [&](EntityId s) { return domain.segments()[s].points; };
   detail::sort_by_points(domain.points().size(), domain.segments().size(), ends, bulk, segments_begin_, segments_at_);
   for (const Point<D>& p : domain.points())

@@ -101,6 +101,7 @@ class PoorReasons {
   const CellBounds<D>* bounds_;
   const KeptEntities<D>* kept_;
   CountedTriangles meshed_;
+  std::vector<std::uint8_t> meshed_segments_;
   double largest_ = 0;  ///< coordinate of the input
   /// Of each input point its segments: segments_at_ from segments_begin_ on.
   std::vector<std::uint32_t> segments_begin_, segments_at_;

@@ -17,10 +17,7 @@ namespace {
 class PartMarker {
  public:
   PartMarker(const Mesh<3>& mesh, const Domain<3>& domain, const detail::DomainParts& parts)
-      : mesh_(&mesh), domain_(&domain), parts_(&parts), marked_(parts.triangles()) {
-    for (const DomainFacet& f : domain.facets())
-      if (f.triangle_count == 1) marked_[f.first_triangle] = 1;
-  }
+      : mesh_(&mesh), domain_(&domain), parts_(&parts), marked_(parts.triangles()) {}
 
   void look_at(CellId c) {
     const auto* constraints = mesh_->constraints(c);
@@ -35,7 +32,7 @@ class PartMarker {
   void look_at_face(CellId c, const ConstraintRecord<3>& constraints, int face) {
     const EntityId f = constraints.face_entity[face];
     const DomainFacet& facet = domain_->facets()[f];
-    if (facet.triangle_count == 1) return;
+    if (facet.triangle_count == 1) return mark(facet.first_triangle);
     const auto& v = mesh_->cell(c).vertices;
     for (int opposite = 0; opposite < 4; ++opposite) {
       if (opposite == face) continue;
@@ -73,17 +70,12 @@ std::vector<std::uint8_t> meshed_triangles<2>(const Mesh<2>&, const Domain<2>&) 
 template <>
 std::vector<std::uint8_t> meshed_triangles<3>(const Mesh<3>& mesh, const Domain<3>& domain) {
   const detail::DomainParts parts(domain);
-  const auto is_one_part = [&](const DomainFacet& f) {
-    for (std::uint32_t t = 1; t < f.triangle_count; ++t)
-      if (parts.of(f.first_triangle + t) != parts.of(f.first_triangle)) return false;
-    return true;
-  };
-  if (std::ranges::all_of(domain.facets(), is_one_part)) return {};
   PartMarker marker(mesh, domain, parts);
   for (std::uint32_t c = 0; c < mesh.cell_bound(); ++c)
     if (mesh.alive(CellId{c})) marker.look_at(CellId{c});
   std::vector<std::uint8_t> meshed = std::move(marker).marked();
   for (std::uint32_t t = 0; t < meshed.size(); ++t) meshed[t] = meshed[parts.of(t)];
+  if (std::ranges::find(meshed, 0) == meshed.end()) meshed.clear();
   return meshed;
 }
 

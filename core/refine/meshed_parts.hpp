@@ -13,8 +13,8 @@
 
 namespace pgdr {
 
-/// Of each triangle of all facets of the Domain: has the mesh the part that it is of? Empty if all facets have one part, and in
-/// 2D. Near-linear in triangles of facets and in cells. @pre the facets are in the mesh, and what is outside is not any more.
+/// Of each triangle of all facets of the Domain: has the mesh the part that it is of? Empty if it has all, and in 2D. Near-linear
+/// in triangles of facets and in cells. @pre the facets are in the mesh, and what is outside is not any more.
 template <int D>
 std::vector<std::uint8_t> meshed_triangles(const Mesh<D>& mesh, const Domain<D>& domain);
 
