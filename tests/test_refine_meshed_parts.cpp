@@ -12,6 +12,7 @@
 
 #include "carved_meshes.hpp"
 #include "input/sharp_angles.hpp"
+#include "reasons/meshed_segments.hpp"
 #include "refine/meshed_parts.hpp"
 
 namespace pgdr {
@@ -67,7 +68,37 @@ TEST(MeshedParts, WhatIsOutsideOfTheMeshMakesNoAngle) {
   }
 }
 
-TEST(MeshedParts, NothingIsAskedWhereFacetsHaveOnePart) {
+// Of a flap that is outside as a whole reasons named the far side (another surface in the place of zav_l.stl), which is no
+// subsegment of the mesh.
+TEST(MeshedParts, AFlapOutsideHasNoSegmentsButThoseOfTheMesh) {
+  Plc<3> plc = test::cube();
+  const auto number_of = [&](const Point3& p) {
+    return static_cast<std::uint32_t>(std::ranges::find(plc.points, p) - plc.points.begin());
+  };
+  const auto tip = static_cast<std::uint32_t>(plc.points.size());
+  const std::uint32_t a = number_of({1, 1, 1}), b = number_of({1, 1, 0});
+  plc.points.push_back({1.05, 1.05, 0.5});
+  plc.facets.push_back({{{a, b, tip}}, {}, 77});
+  const Domain<3> domain(plc);
+  Mesh<3> mesh;
+  auto pools = mesh.make_pools();
+  test::carve_mesh(domain, mesh, pools);
+  const std::vector<std::uint8_t> meshed = meshed_triangles<3>(mesh, domain);
+  const std::vector<std::uint8_t> segments = meshed_segments<3>(mesh, domain, meshed);
+  ASSERT_EQ(segments.size(), domain.segments().size());
+  const EntityId flap = facet_of(domain, 77);
+  for (EntityId f = 0; f < domain.facets().size(); ++f) EXPECT_EQ(meshed[domain.facets()[f].first_triangle], f == flap ? 0 : 1);
+  std::size_t missing = 0;
+  for (EntityId s = 0; s < domain.segments().size(); ++s) {
+    const auto& ends = domain.segments()[s].points;
+    const bool is_at_tip = domain.points()[ends[0]] == plc.points[tip] || domain.points()[ends[1]] == plc.points[tip];
+    missing += is_at_tip;
+    EXPECT_EQ(segments[s], is_at_tip ? 0 : 1);
+  }
+  EXPECT_EQ(missing, 2u);
+}
+
+TEST(MeshedParts, NothingIsAskedWhereTheMeshHasAllFacets) {
   const Domain<3> domain(test::cube());
   Mesh<3> mesh;
   auto pools = mesh.make_pools();
