@@ -37,7 +37,6 @@ std::uint32_t SurfaceComplex::add_face(const SurfaceFace& face) {
   const auto f = static_cast<std::uint32_t>(faces.size());
   faces.push_back(face);
   faces.back().born = ++births_;
-  count_change_of_group(f);
   for (const std::uint32_t v : face.corners) faces_at[v].push_back(f);
   return f;
 }
@@ -48,12 +47,10 @@ void SurfaceComplex::remove_face(std::uint32_t f) {
     list.erase(std::find(list.begin(), list.end(), f));
   }
   faces[f].alive = false;
-  count_change_of_group(f);
 }
 
 void SurfaceComplex::put_back_face(std::uint32_t f) {
   faces[f].alive = true;
-  count_change_of_group(f);
   for (const std::uint32_t v : faces[f].corners) faces_at[v].push_back(f);
 }
 

@@ -52,12 +52,11 @@ struct SurfaceCurve {
 
 /// Faces that hang together across plain edges in one plane, up to the distance of flat groups.
 struct FlatGroup {
-  Point3 anchor;              ///< on the plane
-  Vector<3> normal{};         ///< of length 1
-  int axis = 2;               ///< the coordinate dropped in its projection
-  double bend = 0;            ///< most_bend_of() it as given
-  bool is_wide = false;       ///< it may not be broken
-  std::uint64_t changes = 0;  ///< how often a face of it has come, gone or been put back
+  Point3 anchor;         ///< on the plane
+  Vector<3> normal{};    ///< of length 1
+  int axis = 2;          ///< the coordinate dropped in its projection
+  double bend = 0;       ///< most_bend_of() it as given
+  bool is_wide = false;  ///< it may not be broken
 };
 
 /// How a vertex may change: 0, anywhere; 1, along its curve; 2, never.
@@ -138,10 +137,6 @@ class SurfaceComplex {
   void drop_last_point();
 
  private:
-  void count_change_of_group(std::uint32_t f) {
-    if (faces[f].group != no_index) ++groups[faces[f].group].changes;
-  }
-
   std::uint64_t births_ = 0;
 };
 

@@ -7,13 +7,8 @@
 // a contraction takes it away, which a split may only make possible. So a split is made with what follows from it, as one
 // transaction.
 #include <algorithm>
-#include <array>
-#include <mutex>
 #include <optional>
-#include <span>
-#include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include "replace/ahead.hpp"
 #include "replace/coarsen.hpp"
@@ -35,47 +30,6 @@ struct WaitingFace {
     return corner != o.corner ? corner > o.corner : triangle_less(o.at, at);
   }
   bool is_same(const WaitingFace& o) const { return face == o.face && touched == o.touched; }
-};
-
-/// Vertices whose moves have been refused for corners and ridges, with the faces that decide of these. What a thread finds here
-/// it would find out itself, so that nothing depends on who was first. Any number of threads may ask and note at once.
-class RefusedMoves {
- public:
-  /// The youngest face at the vertex, and a hash of the youngest at those about it, and of what is known of their groups.
-  using State = std::array<std::uint64_t, 2>;
-
-  static State state_about(const SurfaceComplex& s, std::uint32_t v) {
-    std::uint64_t hash = 0;
-    const auto add = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3u; };
-    for (const std::uint32_t f : s.faces_at[v]) {
-      for (const std::uint32_t w : s.faces[f].corners) add(s.youngest_at(w));
-      if (s.faces[f].group != no_index) add(s.groups[s.faces[f].group].changes);
-    }
-    return {s.youngest_at(v), hash};
-  }
-
-  void note(std::uint32_t v, const State& state, std::span<const Verdict> verdicts) {
-    if (!std::all_of(verdicts.begin(), verdicts.end(), [](Verdict x) { return x == Verdict::angle || x == Verdict::fold; }))
-      return;
-    const std::lock_guard lock(mutex_);
-    refused_[v] = {state, {verdicts.begin(), verdicts.end()}};
-  }
-  /// Adds the verdicts noted for this state, if there are any.
-  bool add_refusals(std::uint32_t v, const State& state, Trial& trial) const {
-    const std::lock_guard lock(mutex_);
-    const auto at = refused_.find(v);
-    if (at == refused_.end() || at->second.state != state) return false;
-    trial.refused.insert(trial.refused.end(), at->second.verdicts.begin(), at->second.verdicts.end());
-    return true;
-  }
-
- private:
-  struct Refused {
-    State state;
-    std::vector<Verdict> verdicts;
-  };
-  mutable std::mutex mutex_;
-  std::unordered_map<std::uint32_t, Refused> refused_;
 };
 
 class Improving {
@@ -297,18 +251,8 @@ class Improving {
   bool move_corners(const Corners& c, std::uint64_t since, Trial& trial) const {
     return std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return is_newer_at(v, since) && move_corner(v, trial); });
   }
-  /// All faces at a vertex try to move it, to the same places. Where corners and ridges alone have refused these, which are those
-  /// of the faces about it, they do so again as long as these are the same.
   bool move_corner(std::uint32_t v, Trial& trial) const {
     if (s_.order[v] == VertexOrder::fixed) return false;
-    const RefusedMoves::State state = RefusedMoves::state_about(s_, v);
-    if (refused_moves_.add_refusals(v, state, trial)) return false;
-    const std::size_t before = trial.refused.size();
-    if (try_places(v, trial)) return true;
-    refused_moves_.note(v, state, std::span(trial.refused).subspan(before));
-    return false;
-  }
-  bool try_places(std::uint32_t v, Trial& trial) const {
     if (s_.order[v] == VertexOrder::on_curve) {
       const auto& kept = s_.kept_at[v];
       const Point3 middle = middle_of(s_.at(kept[0].other), s_.at(kept[1].other));
@@ -375,7 +319,6 @@ class Improving {
   std::vector<bool> held_;                 // vertices that splits have made
   std::vector<std::uint64_t> refused_at_;  // of each face how many had been born when all was refused that was tried for it
   AheadQueue<WaitingFace> queue_;
-  mutable RefusedMoves refused_moves_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "pgdr/predicates.hpp"
 #include "replace/numbers.hpp"
+#include "space/make_set.hpp"
 #include "space/triangle.hpp"
 
 namespace pgdr::detail {
@@ -157,8 +158,7 @@ std::vector<std::uint32_t> vertices_of(const SurfaceComplex& s, const SurfaceCha
   std::vector<std::uint32_t> vertices;
   for (const std::uint32_t f : change.gone) vertices.insert(vertices.end(), s.faces[f].corners.begin(), s.faces[f].corners.end());
   for (const SurfaceFace& f : change.come) vertices.insert(vertices.end(), f.corners.begin(), f.corners.end());
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  make_set(vertices);
   return vertices;
 }
 
