@@ -118,7 +118,7 @@ TEST(ReplaceSurface, NothingIsJumpedOver) {
   const ReplacedSurface out = replaced(plc, e);
   check(plc, out.plc, e);
   EXPECT_GT(out.report.refused.swept, 0u);
-  EXPECT_GT(highest(out.plc), 0.9 * e);
+  EXPECT_GT(highest(out.plc), 0.6 * e);  // the top of the ball is at 0.55 e
 }
 
 TEST(ReplaceSurface, TopologyStays) {

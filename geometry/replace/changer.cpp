@@ -67,16 +67,17 @@ bool Changer::are_edges_short(const SurfaceChange& change) const {
   return true;
 }
 
-Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal, Box<3>& read) const {
+Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const {
   const SurfaceComplex& s = s_.complex;
-  if (!regroup(s, change, read) || !are_corners_fine(change, goal)) return Verdict::angle;
+  if (!regroup(s, change, trial.read) || !are_corners_fine(change, goal)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
-  if (goal.rule == CornerRule::coarsen && expected_growth(s, change).cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
-    return Verdict::cells;
   if (!are_edges_short(change)) return Verdict::size;
   if (!is_place_near(s_, change, numbers::farthest_place * tolerance_) || !keeps_curves(s_, change, goal.distance) ||
-      !is_near_given(s_, change, goal.distance) || !is_given_near(s_, change, goal.distance))
+      !keeps_distance(s_, change, goal.distance))
     return Verdict::distance;
+  trial.growth = expected_growth(s, change);
+  if (goal.rule == CornerRule::coarsen && trial.growth.cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
+    return Verdict::cells;
   if (!meets_nothing(s_, change)) return Verdict::meets;
   if (!keeps_gaps(s_, change, numbers::narrow_gap * tolerance_)) return Verdict::gap;
   if (change.kind == SurfaceChange::Kind::split && !avoids_wedges(s_, change)) return Verdict::gap;
@@ -90,7 +91,7 @@ Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& tria
     for (const std::uint32_t f : change.gone) box.add(s_.boxes[f]);
     trial.read.add(Box<3>::around(change.place).widened(box.longest_side()));
   }
-  const Verdict verdict = verdict_of(change, goal, trial.read);
+  const Verdict verdict = verdict_of(change, goal, trial);
   if (verdict == Verdict::yes)
     trial.change = std::move(change);
   else
@@ -126,7 +127,7 @@ bool Changer::settle(const Trial& trial) {
   SurfaceChange change = *trial.change;
   if (change.kind == SurfaceChange::Kind::split) number_new_vertex(change, static_cast<std::uint32_t>(touched_.size()));
   if (is_transaction_) note(change);
-  growth_ += expected_growth(s_.complex, change);
+  growth_ += trial.growth;
   make(change);
   return true;
 }

@@ -37,6 +37,7 @@ enum class Verdict : std::uint8_t { yes, angle, fold, cells, size, distance, mee
 struct Trial {
   std::vector<Verdict> refused;         ///< in their order
   std::optional<SurfaceChange> change;  ///< that passed
+  Expected growth;                      ///< of what it makes expect
   /// How many changes had been made, where others may be made before this one: then `read` has to be known.
   std::optional<std::size_t> ahead_of;
   /// Where all lies that had a part in it: a face, point or kept edge that does not meet this box had none.
@@ -97,7 +98,7 @@ class Changer {
   const std::vector<std::uint32_t>& last() const { return last_; }
 
  private:
-  Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal, Box<3>& read) const;
+  Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const;
   bool are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const;
   bool are_edges_short(const SurfaceChange& change) const;
   void make(const SurfaceChange& change);

@@ -5,9 +5,11 @@
 // let X be the box of the faces that go, grown by e. A point of S outside of it is farther than e from all of these, so that the
 // face that it is near stays. A point inside is of a given triangle that is looked at, or whose box meets no grown box of a face
 // that goes; then the same holds.
+#include <map>
 #include <set>
 
 #include "replace/coverage.hpp"
+#include "replace/height_proof.hpp"
 #include "replace/numbers.hpp"
 #include "replace/patch_tests.hpp"
 #include "space/distances.hpp"
@@ -120,41 +122,61 @@ std::array<Point3, 4> samples_of(const std::array<Point3, 3>& t) {
 
 }  // namespace
 
-bool is_near_given(const ChangingSurface& s, const SurfaceChange& change, double e) {
-  std::vector<std::array<Point3, 3>> come;
-  Box<3> all = Box<3>::empty();
-  for (const SurfaceFace& f : change.come) {
-    come.push_back(sorted(triangle_after(s.complex, change, f)));
-    all.add(Box<3>::of(come.back()));
-  }
-  Cover cover(e);
-  std::vector<std::uint32_t> classes;  // of its triangles
-  s.given.triangles_meeting(all.widened(e), [&](std::uint32_t g) {
-    cover.add(s.given.triangles()[g].corners);
-    classes.push_back(s.given.triangles()[g].klass);
-  });
-  // One point that is farther from all proves a no, mostly before anything is cut.
-  std::vector<std::uint32_t> near;  // of each of those that come the given ones that may be near
-  std::vector<std::size_t> end;
-  for (std::size_t k = 0; k < come.size(); ++k) {
-    const Box<3> reach = cover.with_margin(Box<3>::of(come[k]));
-    const std::size_t first = near.size();
-    for (std::uint32_t t = 0; t < cover.size(); ++t)
-      if (classes[t] == change.come[k].klass && cover.box(t).meets(reach)) near.push_back(t);
-    end.push_back(near.size());
-    for (const Point3& p : samples_of(come[k]))
-      if (!cover.reaches(p, std::span(near).subspan(first))) return false;
-  }
-  for (std::size_t k = 0; k < come.size(); ++k) {
-    const Box<3> box = Box<3>::of(come[k]).widened(e);
-    const std::size_t first = k == 0 ? 0 : end[k - 1];
-    cover.use(std::span(near).subspan(first, end[k] - first), [&](std::uint32_t t) { return cover.box(t).meets(box); });
-    if (!cover.covers(CutPolygon(come[k]), numbers::more_parts, numbers::more_parts_each)) return false;
-  }
-  return true;
-}
-
 namespace {
+
+/// Covers faces that come by given triangles of their classes: by what HeightProof does not show.
+class FaceCover {
+ public:
+  FaceCover(const ChangingSurface& s, const SurfaceChange& change, double e, std::span<const NearGiven> given)
+      : s_(s), change_(change), given_(given), cover_(e), e_(e) {}
+
+  /// Is there a given triangle of this class within e of a point?
+  bool reaches(const Point3& p, std::uint32_t klass) const {
+    return std::any_of(given_.begin(), given_.end(), [&](const NearGiven& near) {
+      if (near.box.squared_distance_to(p) > e_ * e_) return false;
+      const GivenSurface::Triangle& t = s_.given.triangles()[near.number];
+      return t.klass == klass && closest_to_triangle(p, t.corners[0], t.corners[1], t.corners[2]).square <= e_ * e_;
+    });
+  }
+  bool covers(const SurfaceFace& f) {
+    const auto t = sorted(triangle_after(s_.complex, change_, f));
+    find_near(Box<3>::of(t), f.klass);
+    // One point that is farther from all proves a no, mostly before anything is cut.
+    for (const Point3& p : samples_of(t))
+      if (!cover_.reaches(p, near_)) return false;
+    const Box<3> box = Box<3>::of(t).widened(e_);
+    cover_.use(near_, [&](std::uint32_t i) { return cover_.box(i).meets(box); });
+    return cover_.covers(CutPolygon(t), numbers::more_parts, numbers::more_parts_each);
+  }
+
+ private:
+  void find_near(const Box<3>& box, std::uint32_t klass) {
+    if (cover_.size() == 0)
+      for (const NearGiven& g : given_) cover_.add(s_.given.triangles()[g.number].corners);
+    const Box<3> reach = cover_.with_margin(box);
+    near_.clear();
+    for (std::uint32_t i = 0; i < given_.size(); ++i)
+      if (s_.given.triangles()[given_[i].number].klass == klass && cover_.box(i).meets(reach)) near_.push_back(i);
+  }
+
+  const ChangingSurface& s_;
+  const SurfaceChange& change_;
+  std::span<const NearGiven> given_;
+  Cover cover_;  // the given ones, once one is asked for
+  double e_;
+  std::vector<std::uint32_t> near_;
+};
+
+/// Is each face that comes within e of the given triangles of its class?
+bool are_faces_near(const SurfaceChange& change, HeightProof& proof, FaceCover cover) {
+  std::vector<std::size_t> left;
+  for (const std::size_t k : proof.longest_first()) {
+    if (proof.shows_face(k)) continue;
+    if (proof.far_point() && !cover.reaches(*proof.far_point(), change.come[k].klass)) return false;
+    left.push_back(k);
+  }
+  return std::all_of(left.begin(), left.end(), [&](std::size_t k) { return cover.covers(change.come[k]); });
+}
 
 /// Covers given triangles of one class by faces that come, or by these and those that stay.
 class GivenCover {
@@ -209,30 +231,34 @@ class GivenCover {
 
 }  // namespace
 
-bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double e) {
+bool keeps_distance(const ChangingSurface& s, const SurfaceChange& change, double e) {
   const SurfaceComplex& c = s.complex;
-  std::set<std::uint32_t> classes;
-  Box<3> all = Box<3>::empty();
+  Box<3> near = Box<3>::empty();
   std::vector<Box<3>> gone;
   for (const std::uint32_t f : change.gone) {
-    classes.insert(c.faces[f].klass);
     gone.push_back(Box<3>::of(c.triangle(f)).widened(e));
-    all.add(gone.back());
+    near.add(gone.back());
   }
-  std::vector<std::uint32_t> near;
-  s.given.triangles_meeting(all, [&](std::uint32_t g) { near.push_back(g); });
-  for (const std::uint32_t klass : classes) {
-    GivenCover cover(s, change, e, klass, all);
-    const auto is_asked = [&](const Box<3>& box) {
-      for (std::size_t k = 0; k < gone.size(); ++k)
-        if (gone[k].meets(box) && c.faces[change.gone[k]].klass == klass) return true;
-      return false;
-    };
-    for (const std::uint32_t g : near) {
-      const GivenSurface::Triangle& t = s.given.triangles()[g];
-      if (t.klass == klass && is_asked(Box<3>::of(t.corners)) && !cover.covers(t.corners)) return false;
+  Box<3> all = near;
+  for (const SurfaceFace& f : change.come) all.add(Box<3>::of(triangle_after(c, change, f)).widened(e));
+  std::vector<NearGiven> given;
+  s.given.triangles_meeting(all, [&](std::uint32_t g, const Box<3>& box) { given.push_back({g, box}); });
+  HeightProof proof(s, change, e, given, near);
+  if (!are_faces_near(change, proof, FaceCover(s, change, e, given))) return false;
+  std::map<std::uint32_t, GivenCover> covers;  // by class
+  const auto is_asked = [&](std::size_t place, std::uint32_t klass) {
+    for (std::size_t k = 0; k < gone.size(); ++k)
+      if (gone[k].meets(given[place].box) && c.faces[change.gone[k]].klass == klass && proof.may_be_near(k, place)) return true;
+    return false;
+  };
+  // Those over faces that come lead to the faces beyond, which others are over.
+  for (const bool is_over : {true, false})
+    for (std::size_t place = 0; place < given.size(); ++place) {
+      if (proof.is_over_face(place) != is_over) continue;
+      const GivenSurface::Triangle& t = s.given.triangles()[given[place].number];
+      if (!is_asked(place, t.klass) || proof.shows_given(place)) continue;
+      if (!covers.try_emplace(t.klass, s, change, e, t.klass, near).first->second.covers(t.corners)) return false;
     }
-  }
   return true;
 }
 

@@ -19,6 +19,8 @@ class GivenSurface {
   struct Triangle {
     std::array<Point3, 3> corners;  ///< in the order of their coordinates
     std::uint32_t klass;
+    /// Over the edges from corner i to the next, the other triangle of the class there; no_index if there are none, or more.
+    std::array<std::uint32_t, 3> beyond{no_index, no_index, no_index};
   };
   struct Segment {
     std::array<Point3, 2> ends;
@@ -27,7 +29,7 @@ class GivenSurface {
   explicit GivenSurface(const SurfaceComplex& surface);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Calls visit(number) for each triangle whose box meets this one.
+  /// Calls visit(number, its box) for each triangle whose box meets this one.
   template <class Visit>
   void triangles_meeting(const Box<3>& box, const Visit& visit) const {
     triangle_tree_.meeting(box, visit);

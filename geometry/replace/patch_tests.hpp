@@ -29,10 +29,9 @@ struct ChangingSurface {
 
 /// Curves stay within e of the given ones, both ways, curve by curve.
 bool keeps_curves(const ChangingSurface& s, const SurfaceChange& change, double e);
-/// Every new face is within e of the given triangles of its class.
-bool is_near_given(const ChangingSurface& s, const SurfaceChange& change, double e);
-/// Every given triangle is within e of faces of its class afterwards, if it is so now.
-bool is_given_near(const ChangingSurface& s, const SurfaceChange& change, double e);
+/// Every new face is within e of the given triangles of its class, and every given triangle within e of faces of its class
+/// afterwards, if it is so now.
+bool keeps_distance(const ChangingSurface& s, const SurfaceChange& change, double e);
 
 /// New faces meet others, and each other, in common corners and edges alone (exact), and none is flat or next to it.
 bool meets_nothing(const ChangingSurface& s, const SurfaceChange& change);

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -71,12 +72,13 @@ class BoxTree {
     });
     return parts;
   }
-  /// Calls visit(i) once for every box that meets this one (borders count).
+  /// Calls visit(i), or visit(i, its box), once for every box that meets this one (borders count).
   template <class Visit>
   void meeting(const Box<D>& box, Visit&& visit) const {
     wherever([&](const Box<D>& other) { return other.meets(box); }, visit);
   }
-  /// Calls visit(i) once for every box with meets(box). @pre meets() is true of a box around one of which it is.
+  /// Calls visit(i), or visit(i, its box), once for every box with meets(box). @pre meets() is true of a box around one of which
+  /// it is.
   template <class Meets, class Visit>
   void wherever(const Meets& meets, Visit&& visit) const;
   /// Calls visit(i) once for every box that holds p (its border counts).
@@ -192,8 +194,13 @@ void BoxTree<D>::wherever(const Meets& meets, Visit&& visit) const {
     const std::uint32_t node = stack[--n];
     if (!meets(nodes_[node])) continue;
     if (is_leaf(node)) {
-      for (const Item& item : items_of(node))
-        if (meets(item.box)) visit(item.index);
+      for (const Item& item : items_of(node)) {
+        if (!meets(item.box)) continue;
+        if constexpr (std::is_invocable_v<Visit, std::uint32_t, const Box<D>&>)
+          visit(item.index, item.box);
+        else
+          visit(item.index);
+      }
     } else {
       stack[n++] = 2 * node;
       stack[n++] = 2 * node + 1;
