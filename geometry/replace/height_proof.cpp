@@ -34,7 +34,7 @@ Vector<3> direction_of(std::vector<Triangle> triangles) {
 
 HeightProof::HeightProof(const ChangingSurface& s, const SurfaceChange& change, double e, std::span<const NearGiven> given,
                          const Box<3>& near)
-    : s_(s), change_(change), e_(e), near_given_(given), near_(near) {
+    : s_(s), change_(change), e_(e), near_given_(given), near_(near), given_(given.size()) {
   if (change.come.size() > most_faces) return;
   std::vector<Triangle> come;
   Box<3> box = near;
@@ -49,7 +49,6 @@ HeightProof::HeightProof(const ChangingSurface& s, const SurfaceChange& change, 
     return;
   }
   for (const SurfaceFace& f : change.come) add_face(f, no_index);
-  given_.resize(given.size());
   edges_.resize(faces_.size() * given_.size());
 }
 
