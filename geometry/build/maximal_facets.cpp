@@ -75,7 +75,7 @@ std::uint32_t orient(DomainFacet& facet, std::span<const Point3> p, const Triang
   std::uint32_t largest = 0;
   double largest_size = -1;
   for (std::uint32_t k = 0; k < facet.triangle_count; ++k)
-    if (const double s = size(t[k]); s > largest_size) {
+    if (const double s = size(t[k]); s > largest_size || (s == largest_size && shapes.is_before(t[k], t[largest]))) {
       largest = k;
       largest_size = s;
     }

@@ -52,11 +52,13 @@ bool PlaneClusters::triangulate(std::span<const std::uint32_t> facets, std::span
 bool PlaneClusters::look_along_axis() {
   const TriangleShapes shapes(in_.points, in_.scale);
   double square = -1;
+  PlanarTriangle largest{};
   for (const std::uint32_t f : facets_)
     for (const PlanarTriangle& t : faces_.of(faces_.facets[f])) {
       const Vector<3> n = shapes.normal(t);
-      if (const double s = dot(n, n); s > square) {
+      if (const double s = dot(n, n); s > square || (s == square && shapes.is_before(t, largest))) {
         square = s;
+        largest = t;
         axis_ = axes_by_size(n)[0];
       }
     }

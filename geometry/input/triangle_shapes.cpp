@@ -18,8 +18,27 @@ std::array<int, 3> axes_by_size(const std::array<double, 3>& normal) {
   return axes;
 }
 
+std::pair<TriangleShapes::Triangle, bool> TriangleShapes::by_coordinates(Triangle t) const {
+  bool is_turned = false;
+  for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 2}, {0, 1}})
+    if (lex_less(points_[t[j]], points_[t[i]])) {
+      std::swap(t[i], t[j]);
+      is_turned = !is_turned;
+    }
+  return {t, is_turned};
+}
+
+bool TriangleShapes::is_before(const Triangle& t, const Triangle& u) const {
+  const Triangle a = by_coordinates(t).first, b = by_coordinates(u).first;
+  return std::ranges::lexicographical_compare(
+      a, b, [](const Point3& p, const Point3& q) { return lex_less(p, q); }, [this](std::uint32_t v) { return points_[v]; },
+      [this](std::uint32_t v) { return points_[v]; });
+}
+
 std::array<double, 3> TriangleShapes::normal(const Triangle& t) const {
-  const Point3 a = scaled(t[0]), b = scaled(t[1]), c = scaled(t[2]);
+  auto [sorted, is_turned] = by_coordinates(t);
+  if (is_turned) std::swap(sorted[1], sorted[2]);
+  const Point3 a = scaled(sorted[0]), b = scaled(sorted[1]), c = scaled(sorted[2]);
   double u[3], w[3];
   for (int i = 0; i < 3; ++i) {
     u[i] = b[i] - a[i];

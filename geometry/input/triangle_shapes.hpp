@@ -30,12 +30,18 @@ class TriangleShapes {
     for (double& x : p.x) x *= scale_;
     return p;
   }
-  /// (b - a) x (c - a), in doubles.
+  /// (b - a) x (c - a), in doubles: from whichever corner on and whichever way round the triangle is given, the same to the last
+  /// bit, but for the sign. What it decides may not depend on that.
   std::array<double, 3> normal(const Triangle& t) const;
+  /// Of two that are as large: in an order of triangles that the input's has no part in.
+  bool is_before(const Triangle& t, const Triangle& u) const;
   /// The axis along which most is seen of a triangle that is not flat, and its orientation then: 1 or -1.
   std::pair<int, int> visible_side(const Triangle& t) const;
 
  private:
+  /// Its corners in the order of their coordinates; does it run the other way round then?
+  std::pair<Triangle, bool> by_coordinates(Triangle t) const;
+
   std::span<const Point3> points_;
   double scale_;
 };

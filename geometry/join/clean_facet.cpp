@@ -135,11 +135,17 @@ bool CleanFacet::split_at_own_points(std::span<const Point3> p, BuildReport<3>& 
 std::array<double, 3> CleanFacet::normal(const TriangleShapes& shapes) const {
   std::array<double, 3> best{};
   double best_size = -1;
-  for (const auto& loop : loops) {
+  for (std::vector<std::uint32_t> loop : loops) {
+    if (loop.size() < 3) continue;
+    // From its least point on, by the lesser one beside it: sums are rounded, and decide what an order may not.
+    const auto less = [&](std::uint32_t v, std::uint32_t w) { return lex_less(shapes.scaled(v), shapes.scaled(w)); };
+    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end(), less), loop.end());
+    const bool is_turned = less(loop.back(), loop[1]);
+    if (is_turned) std::reverse(loop.begin() + 1, loop.end());
     std::array<double, 3> sum{};
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {  // from its first point: no cancellation far from the origin
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k) {  // from a point of it: no cancellation far from the origin
       const auto n = shapes.normal({loop[0], loop[k], loop[k + 1]});
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += n[i];
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += is_turned ? -n[i] : n[i];
     }
     const double size = std::fabs(sum[0]) + std::fabs(sum[1]) + std::fabs(sum[2]);
     if (size > best_size) {

@@ -6,7 +6,6 @@
 // it without the rim is all inside of the cone or all outside; it has a face, whose centroid says which. None may be inside, and
 // no seed: then volumes keep their seeds, their walls and their nesting.
 #include <cmath>
-#include <optional>
 
 #include "numbers/vectors.hpp"
 #include "pgdr/predicates.hpp"
@@ -28,15 +27,17 @@ std::vector<Box<3>> boxes_of_faces(const SurfaceComplex& s) {
   return out;
 }
 
-/// A piece of two or three vertices, with where these are after a change.
+/// A piece of one to three vertices, with where these are after a change.
 struct PlacedPiece {
   std::array<std::uint32_t, 3> corners{no_index, no_index, no_index};
   std::array<Point3, 3> places{};
   std::uint8_t count = 3;
+  std::uint8_t axis = 2;  ///< of a projection in which a triangle has an area; it runs round positively there
+  bool is_flat = false;   ///< a triangle that has none in any
 };
 
-/// The axis of a projection in which the triangle has an area; its corners are turned to be positive there. None: it is flat.
-std::optional<int> turn_to_axis(PlacedPiece& p) {
+/// Finds the axis of a triangle, and turns it.
+void turn_to_axis(PlacedPiece& p) {
   const auto n = cross(difference(p.places[1], p.places[0]), difference(p.places[2], p.places[0]));
   std::array<int, 3> axes{0, 1, 2};
   std::sort(axes.begin(), axes.end(),
@@ -48,43 +49,38 @@ std::optional<int> turn_to_axis(PlacedPiece& p) {
       std::swap(p.places[1], p.places[2]);
       std::swap(p.corners[1], p.corners[2]);
     }
-    return axis;
+    p.axis = static_cast<std::uint8_t>(axis);
+    return;
   }
-  return std::nullopt;
+  p.is_flat = true;
 }
 
 PlacedPiece placed(const SurfaceComplex& s, const SurfaceChange& change, const SurfaceFace& f) {
-  return {f.corners, triangle_after(s, change, f), 3};
+  PlacedPiece piece{.corners = f.corners, .places = triangle_after(s, change, f)};
+  turn_to_axis(piece);
+  return piece;
 }
 
 /// Do two pieces meet but in the hull of their common vertices? Exact. A flat triangle does.
-bool meet(PlacedPiece a, PlacedPiece b) {
-  std::vector<Point3> points;
-  std::vector<std::uint32_t> names;
-  const auto piece_of = [&](const PlacedPiece& p, int axis) {
-    Piece piece{.count = p.count, .axis = static_cast<std::uint8_t>(axis)};
+bool meet(const PlacedPiece& a, const PlacedPiece& b) {
+  std::array<Point3, 6> points;
+  std::array<std::uint32_t, 6> names;
+  std::size_t count = 0;
+  const auto piece_of = [&](const PlacedPiece& p) {
+    Piece piece{.count = p.count, .axis = p.axis};
     for (std::size_t k = 0; k < p.count; ++k) {
-      const auto at = std::find(names.begin(), names.end(), p.corners[k]);
-      piece.corners[k] = static_cast<std::uint32_t>(at - names.begin());
-      if (at != names.end()) continue;
-      names.push_back(p.corners[k]);
-      points.push_back(p.places[k]);
+      const auto at = static_cast<std::size_t>(
+          std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count), p.corners[k]) - names.begin());
+      piece.corners[k] = static_cast<std::uint32_t>(at);
+      if (at < count) continue;
+      names[count] = p.corners[k];
+      points[count++] = p.places[k];
     }
     return piece;
   };
-  std::array<int, 2> axes{2, 2};
-  if (a.count == 3) {
-    const auto axis = turn_to_axis(a);
-    if (!axis) return true;
-    axes[0] = *axis;
-  }
-  if (b.count == 3) {
-    const auto axis = turn_to_axis(b);
-    if (!axis) return true;
-    axes[1] = *axis;
-  }
-  const Piece p = piece_of(a, axes[0]), q = piece_of(b, axes[1]);
-  return contact<3>(points, p, q).kind != Contact::Kind::none;
+  if (a.is_flat || b.is_flat) return true;
+  const Piece p = piece_of(a), q = piece_of(b);
+  return contact<3>(std::span(points).first(count), p, q).kind != Contact::Kind::none;
 }
 
 Box<3> box_of_change(const SurfaceComplex& s, const SurfaceChange& change) {
@@ -161,22 +157,23 @@ ChangingSurface::ChangingSurface(SurfaceComplex s, LoosePieces pieces, std::vect
 bool meets_nothing(const ChangingSurface& s, const SurfaceChange& change) {
   const SurfaceComplex& c = s.complex;
   if (!are_angles_fine(c, change)) return false;
+  std::vector<PlacedPiece> come;
+  for (const SurfaceFace& f : change.come) come.push_back(placed(c, change, f));
   bool any = false;
-  for (std::size_t k = 0; k < change.come.size() && !any; ++k) {
-    const PlacedPiece face = placed(c, change, change.come[k]);
-    for (std::size_t i = 0; i < k && !any; ++i) any = meet(face, placed(c, change, change.come[i]));
-    const Box<3> box = Box<3>::of(face.places);
+  for (std::size_t k = 0; k < come.size() && !any; ++k) {
+    for (std::size_t i = 0; i < k && !any; ++i) any = meet(come[k], come[i]);
+    const Box<3> box = Box<3>::of(come[k].places);
     s.boxes.meeting(box, [&](std::uint32_t f) {
       if (any || change.is_gone(f)) return;
-      any = meet(face, placed(c, change, c.faces[f]));
+      any = meet(come[k], placed(c, change, c.faces[f]));
     });
     for (const auto& [a, b] : s.loose.edges) {
       Box<3> edge = Box<3>::around(c.at(a));
       edge.add(c.at(b));
-      if (!any && edge.meets(box)) any = meet(face, {{a, b, no_index}, {c.at(a), c.at(b), {}}, 2});
+      if (!any && edge.meets(box)) any = meet(come[k], {{a, b, no_index}, {c.at(a), c.at(b), {}}, 2});
     }
     for (const std::uint32_t v : s.loose.points)
-      if (!any && Box<3>::around(c.at(v)).meets(box)) any = meet(face, {{v, no_index, no_index}, {c.at(v), {}, {}}, 1});
+      if (!any && Box<3>::around(c.at(v)).meets(box)) any = meet(come[k], {{v, no_index, no_index}, {c.at(v), {}, {}}, 1});
   }
   return !any;
 }

@@ -73,7 +73,11 @@ class ComplexMaker {
     for (EntityId f = 0; f < facets.size(); ++f) {
       const auto triangles = domain_.triangles(f);
       for (std::size_t k = 0; k < triangles.size(); ++k) {
-        s_.add_face({.corners = triangles[k], .klass = numbers.at(class_of(f, k))});
+        // From the least corner on: what is computed of a face is rounded, and may not depend on how the triangle was given.
+        auto corners = triangles[k];
+        const auto less = [this](std::uint32_t a, std::uint32_t b) { return lex_less(s_.at(a), s_.at(b)); };
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+        s_.add_face({.corners = corners, .klass = numbers.at(class_of(f, k))});
         facet_of_face_.push_back(f);
       }
     }

@@ -174,12 +174,14 @@ std::uint32_t HeightProof::find_beyond(std::uint32_t face, std::size_t edge) {
       ++count;
     }
   std::uint32_t staying = no_index;
-  if (a < c.points.size() && b < c.points.size())
-    c.each_face_at(a, b, [&](std::uint32_t f) {
+  if (a < c.points.size() && b < c.points.size()) {
+    const bool fewer_at_b = c.faces_at[b].size() < c.faces_at[a].size();
+    c.each_face_at(fewer_at_b ? b : a, fewer_at_b ? a : b, [&](std::uint32_t f) {
       if (f == faces_[face].number || c.faces[f].klass != klass || change_.is_gone(f)) return;
       staying = f;
       ++count;
     });
+  }
   if (count != 1) return no_index;
   if (staying != no_index) {
     if (!s_.boxes[staying].meets(near_)) return no_index;
