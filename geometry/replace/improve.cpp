@@ -161,17 +161,24 @@ class Improving {
     held_.resize(s_.points.size(), false);
     return kept > 0;
   }
-  /// What the small corners of faces that have come since make expect: more cannot be won by what follows.
+  /// What the small corners of faces that have come since make expect, and the edges of these faces: more cannot be won by what
+  /// follows.
   Expected may_be_won(std::uint32_t first) const {
     const SurfaceView view(s_);
     Expected sum;
+    std::vector<SurfaceFace> small;
     for (std::uint32_t f = first; f < s_.faces.size(); ++f) {
       if (!s_.faces[f].alive) continue;
+      bool is_small = false;
       for (const std::uint32_t v : s_.faces[f].corners) {
         const Sector corner = sector_at(view, f, v);
-        if (corner.angle < goal_.floor) sum += expected_of(corner);
+        if (!(corner.angle < goal_.floor)) continue;
+        sum += expected_of(corner);
+        is_small = true;
       }
+      if (is_small) small.push_back(s_.faces[f]);
     }
+    sum += expected_of_edges(view, small);
     return sum;
   }
   /// The worst of these faces that nothing has been tried for in vain.

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replace/shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "pgdr/predicates.hpp"
 #include "replace/numbers.hpp"
+#include "space/distances.hpp"
 #include "space/make_set.hpp"
 #include "space/triangle.hpp"
 
@@ -224,7 +227,43 @@ Expected expected_at(const SurfaceView& view, std::uint32_t vertex) {
   return sum;
 }
 
+/// Is it an edge that the mesher does not know?
+bool is_inside_group(const SurfaceView& view, std::uint32_t a, std::uint32_t b) {
+  if (view.is_kept(a, b)) return false;
+  std::uint32_t group = no_index;
+  bool is_first = true, is_inside = true;
+  view.each_face_at(a, b, [&](std::uint32_t f) {
+    is_inside = is_inside && view.face(f).group != no_index && (is_first || view.face(f).group == group);
+    group = view.face(f).group;
+    is_first = false;
+  });
+  return is_inside;
+}
+
+/// Is the vertex of an obtuse corner in the diametral ball of the edge opposite of it, by more than what is joined?
+bool is_encroached(const SurfaceView& view, std::uint32_t a, std::uint32_t b) {
+  const double least = view.joined() * distance(view.at(a), view.at(b));
+  bool is_one = false;
+  view.each_face_at(a, b, [&](std::uint32_t f) {
+    const Point3& p = view.at(corner_beside(view.face(f).corners, a, b));
+    is_one = is_one || dot(difference(view.at(a), p), difference(view.at(b), p)) < -least;
+  });
+  return is_one && !is_inside_group(view, a, b);
+}
+
 }  // namespace
+
+Expected expected_of_edges(const SurfaceView& view, std::span<const SurfaceFace> faces) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const SurfaceFace& f : faces)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(f.corners[i], f.corners[(i + 1) % 3]);
+      edges.push_back({low, high});
+    }
+  make_set(edges);
+  const auto count = std::count_if(edges.begin(), edges.end(), [&](const auto& e) { return is_encroached(view, e[0], e[1]); });
+  return {count * static_cast<std::int64_t>(numbers::parts_of_cell * numbers::cells_of_two_faces), 0};
+}
 
 Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change) {
   const SurfaceView before(s), after(s, &change);
@@ -233,6 +272,10 @@ Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change) {
     growth += expected_at(after, v);
     growth -= expected_at(before, v);
   }
+  std::vector<SurfaceFace> gone;
+  for (const std::uint32_t f : change.gone) gone.push_back(s.faces[f]);
+  growth += expected_of_edges(after, change.come);
+  growth -= expected_of_edges(before, gone);
   return growth;
 }
 

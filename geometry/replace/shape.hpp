@@ -55,6 +55,8 @@ class SurfaceView {
   const SurfaceFace& face(std::uint32_t f) const { return f < s_.faces.size() ? s_.faces[f] : after_->come[f - s_.faces.size()]; }
   const Point3& at(std::uint32_t v) const { return after_ ? place_after(s_, *after_, v) : s_.at(v); }
   bool is_kept(std::uint32_t a, std::uint32_t b) const;
+  /// What is within this of each other is joined.
+  double joined() const { return s_.joined; }
   /// Calls visit(f) for each face at an edge.
   template <class Visit>
   void each_face_at(std::uint32_t a, std::uint32_t b, const Visit& visit) const {
@@ -132,9 +134,10 @@ struct CornerChange {
 };
 CornerChange corners_of(const SurfaceComplex& s, const SurfaceChange& change, HalfTangent rim_floor);
 
-/// What a mesh is expected to have for corners of facets, in parts of a cell: whole numbers, whose sums do not depend on their
-/// order. The number of cells is, up to a factor, the integral of the -2nd power of the local feature size over the surface: of a
-/// corner the length of its sides over their distance.
+/// What a mesh is expected to have for corners and edges of facets, in parts of a cell: whole numbers, whose sums do not depend
+/// on their order. The number of cells is, up to a factor, the integral of the -2nd power of the local feature size over the
+/// surface: of a corner the length of its sides over their distance. An edge of facets is a segment of the mesh, which is split
+/// if a vertex is in its diametral ball; the point makes two faces more.
 struct Expected {
   std::int64_t cells = 0;
   std::int64_t poor = 0;  ///< those of them that counted corners leave over a bound
@@ -153,7 +156,9 @@ struct Expected {
   std::int64_t weighed(std::int64_t weight) const { return cells + (weight - 1) * poor; }
 };
 Expected expected_of(const Sector& corner);
-/// Of the corners that come with a change, less that of those that go, beyond its rim, too.
+/// Of the edges of some faces, each once.
+Expected expected_of_edges(const SurfaceView& view, std::span<const SurfaceFace> faces);
+/// Of the corners and edges that come with a change, less that of those that go, beyond its rim, too.
 Expected expected_growth(const SurfaceComplex& s, const SurfaceChange& change);
 
 /// Does it make no ridge that was not there: is the least cosine between normals across plain edges at least that of before, or
