@@ -422,6 +422,30 @@ TEST(ReplaceSurface, SplitsPay) {
   check(plc, out.plc, 0.003, 2);
 }
 
+/// Edges of triangles with the marker 1 that have an obtuse corner opposite of them: its vertex is in the edge's diametral ball.
+std::size_t obtuse_corners(const Plc<3>& plc) {
+  std::size_t count = 0;
+  for (const auto& f : plc.facets) {
+    if (f.marker != 1 || f.polygons[0].size() != 3) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto corner = [&](std::size_t k) { return plc.points[f.polygons[0][(i + k) % 3]]; };
+      count += detail::dot(detail::difference(corner(1), corner(0)), detail::difference(corner(2), corner(0))) < 0;
+    }
+  }
+  return count;
+}
+
+/// An edge that will get a point goes where that makes fewer cells expect, though all corners are as wanted: with the other
+/// diagonals no triangle of this grid is obtuse.
+TEST(ReplaceSurface, EdgesThatWouldGetPoints) {
+  Plc<3> plc = relief(16, [](double x, double y) { return 0.05 * std::sin(6 * x) * std::cos(5 * y); });
+  for (Point3& p : plc.points) p[0] += 0.4 * p[1];
+  const ReplacedSurface out = replaced(plc, 0.002);
+  ASSERT_GT(obtuse_corners(plc), 500u);
+  EXPECT_LT(obtuse_corners(out.plc), obtuse_corners(plc) / 10);
+  check(plc, out.plc, 0.002, 2);
+}
+
 /// No edge gets longer than twice the size that is wished for.
 TEST(ReplaceSurface, SizesLimit) {
   const Plc<3> plc = test::icosphere(3);

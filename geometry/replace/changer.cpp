@@ -46,8 +46,11 @@ std::size_t CornerLevels::of(HalfTangent corner, HalfTangent wanted) const {
 bool Changer::are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const {
   const CornerChange c = corners_of(s_.complex, change, rim_corner());
   if (c.kept_come < std::min(c.kept_gone, kept_corner())) return false;
-  // Improving, what gets smaller beyond the rim is one of the corners that come: above the worst that goes.
-  if (goal.rule == CornerRule::improve) return level_of(c.come, goal.floor) > level_of(c.gone, goal.floor);
+  if (goal.rule == CornerRule::improve) {
+    const std::size_t gone = level_of(c.gone, goal.floor), come = level_of(c.come, goal.floor);
+    if (gone < level_of(wide_corner, goal.floor)) return come > gone;
+    return come == gone && level_of(c.rim, goal.floor) == gone && expected_growth(s_.complex, change).cells < 0;
+  }
   if (!c.is_rim_fine) return false;
   if (goal.rule == CornerRule::coarsen) return c.come >= std::min(c.gone, goal.floor);
   return c.come >= std::min(numbers::split_corner * c.gone, goal.floor) && c.come >= std::min(c.gone, rim_corner()) / 2 &&

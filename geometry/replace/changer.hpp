@@ -19,7 +19,7 @@ namespace pgdr::detail {
 /// Which corners a change has to make.
 enum class CornerRule : std::uint8_t {
   coarsen,  ///< none worse than the worst that goes, or than `floor`
-  improve,  ///< all on a higher level than the worst that goes
+  improve,  ///< all on a higher level than the worst that goes; where that is as wanted all others, too, and fewer cells expected
   split,    ///< none worse than about half of the worst that goes, or than `floor`
 };
 

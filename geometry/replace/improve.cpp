@@ -3,7 +3,8 @@
 //
 // The worst face is given to the changes that may cure it, one after the other, until one is made. (The idea of a greatest least
 // angle, worst first, is that of Hu, Yan, Bommes, Alliez and Benes 2017.) A face for which none is made waits until a face at its
-// vertices changes. A split cures no corner by itself: the corner stays, at the end of a shorter needle, until a flip, a move or
+// vertices changes. Last are faces whose corners are as wanted, but with an edge that will get points: for these fewer cells
+// expected count. A split cures no corner by itself: the corner stays, at the end of a shorter needle, until a flip, a move or
 // a contraction takes it away, which a split may only make possible. So a split is made with what follows from it, as one
 // transaction.
 #include <algorithm>
@@ -34,12 +35,13 @@ struct WaitingFace {
 
 class Improving {
  public:
-  Improving(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits)
+  Improving(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits, Improved what)
       : changer_(changer),
         s_(changer.complex()),
         goal_{CornerRule::improve, distance, wanted},
         split_goal_{CornerRule::split, distance, wanted},
         splits_left_(most_splits),
+        what_(what),
         queue_(changer) {}
 
   bool run(const std::stop_token& stop) {
@@ -78,11 +80,12 @@ class Improving {
   }
   /// It is there, and nothing at its vertices has changed.
   bool is_waiting(const WaitingFace& w) const { return s_.faces[w.face].alive && w.touched == touched(w.face); }
-  /// A face, if it has a corner that is smaller than wanted.
+  /// A face, if it has a corner that is smaller than wanted, or an edge that will get points and is asked for.
   std::optional<WaitingFace> waiting(std::uint32_t f) const {
     if (s_.is_fixed(f)) return {};
     const HalfTangent corner = least_corner(s_, f);
-    if (!(corner < goal_.floor)) return {};
+    const bool is_small = corner < goal_.floor;
+    if (!is_small && !(what_ == Improved::corners_and_edges && has_encroached_edge(SurfaceView(s_), f))) return {};
     WaitingFace w{corner, s_.triangle(f), f, touched(f)};
     sort_corners(w.at);
     return w;
@@ -116,7 +119,10 @@ class Improving {
 
   bool give_up() {
     std::uint64_t left = 0;
-    while (!queue_.empty()) left += is_waiting(queue_.pop([](const WaitingFace&, Trial&) { return false; }));
+    while (!queue_.empty()) {
+      const WaitingFace w = queue_.pop([](const WaitingFace&, Trial&) { return false; });
+      left += is_waiting(w) && w.corner < goal_.floor;
+    }
     changer_.give_up(left);
     return true;
   }
@@ -161,24 +167,24 @@ class Improving {
     held_.resize(s_.points.size(), false);
     return kept > 0;
   }
-  /// What the small corners of faces that have come since make expect, and the edges of these faces: more cannot be won by what
-  /// follows.
+  /// What the small corners of faces that have come since make expect, and the edges of those that may wait: more cannot be won
+  /// by what follows.
   Expected may_be_won(std::uint32_t first) const {
     const SurfaceView view(s_);
     Expected sum;
-    std::vector<SurfaceFace> small;
+    std::vector<SurfaceFace> with_edges;
     for (std::uint32_t f = first; f < s_.faces.size(); ++f) {
       if (!s_.faces[f].alive) continue;
-      bool is_small = false;
+      bool may_wait = what_ == Improved::corners_and_edges;
       for (const std::uint32_t v : s_.faces[f].corners) {
         const Sector corner = sector_at(view, f, v);
         if (!(corner.angle < goal_.floor)) continue;
         sum += expected_of(corner);
-        is_small = true;
+        may_wait = true;
       }
-      if (is_small) small.push_back(s_.faces[f]);
+      if (may_wait) with_edges.push_back(s_.faces[f]);
     }
-    sum += expected_of_edges(view, small);
+    sum += expected_of_edges(view, with_edges);
     return sum;
   }
   /// The worst of these faces that nothing has been tried for in vain.
@@ -204,6 +210,7 @@ class Improving {
     const bool may_contract = is_newer_at(c[1], since) || is_newer_at(c[2], since);
     if ((may_contract && contract_edge(c[1], c[2], trial)) || flip_edges(c, since, trial) || move_corners(c, since, trial))
       return true;
+    if (!(w.corner < goal_.floor)) return true;  // a split of an edge that will get a point wins nothing
     if (is_newer_at(c[0], c[1], since) || is_newer_at(c[1], c[2], since) || is_newer_at(c[0], c[2], since))
       split_path(w.face, trial);
     return true;
@@ -323,6 +330,7 @@ class Improving {
   const SurfaceComplex& s_;
   ChangeGoal goal_, split_goal_;
   std::uint64_t splits_left_;
+  Improved what_;
   std::vector<bool> held_;                 // vertices that splits have made
   std::vector<std::uint64_t> refused_at_;  // of each face how many had been born when all was refused that was tried for it
   AheadQueue<WaitingFace> queue_;
@@ -330,8 +338,9 @@ class Improving {
 
 }  // namespace
 
-bool improve(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits, const std::stop_token& stop) {
-  return Improving(changer, distance, wanted, most_splits).run(stop);
+bool improve(Changer& changer, double distance, HalfTangent wanted, std::uint64_t most_splits, Improved what,
+             const std::stop_token& stop) {
+  return Improving(changer, distance, wanted, most_splits, what).run(stop);
 }
 
 }  // namespace pgdr::detail

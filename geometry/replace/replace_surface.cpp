@@ -56,18 +56,19 @@ void require_deep_seeds(const Plc<3>& input, const detail::GivenSurface& given, 
 }
 
 /// The phases: where there is room first, with corners of half of what is wanted, which the room is for; then as far as the
-/// tolerance goes. Coarsening behind the splits takes back what was not needed of these.
+/// tolerance goes. Coarsening behind the splits takes back what was not needed of these. Edges come last, when there are no more
+/// than are needed.
 /// @returns false if the token ended them
 bool change_surface(detail::Changer& changer, double e, double wanted_degrees, const std::stop_token& stop) {
   const auto corner = [](double degrees) { return detail::half_tangent(degrees); };
   const double first = numbers::first_part * e;
-  if (!improve(changer, first, corner(wanted_degrees / 2), 0, stop)) return false;
+  if (!improve(changer, first, corner(wanted_degrees / 2), 0, detail::Improved::corners, stop)) return false;
   if (!coarsen(changer, first, corner(wanted_degrees / 2), stop)) return false;
   std::uint64_t faces = 0;
   for (const auto& f : changer.complex().faces) faces += f.alive;
-  return improve(changer, e, corner(wanted_degrees), numbers::first_splits * faces, stop) &&
+  return improve(changer, e, corner(wanted_degrees), numbers::first_splits * faces, detail::Improved::corners, stop) &&
          coarsen(changer, e, corner(wanted_degrees), stop) &&
-         improve(changer, e, corner(wanted_degrees), numbers::second_splits * faces, stop);
+         improve(changer, e, corner(wanted_degrees), numbers::second_splits * faces, detail::Improved::corners_and_edges, stop);
 }
 
 ReplacedSurface replaced(const Plc<3>& input, const SurfaceOptions& options) {

@@ -253,6 +253,11 @@ bool is_encroached(const SurfaceView& view, std::uint32_t a, std::uint32_t b) {
 
 }  // namespace
 
+bool has_encroached_edge(const SurfaceView& view, std::uint32_t face) {
+  const auto& c = view.face(face).corners;
+  return is_encroached(view, c[0], c[1]) || is_encroached(view, c[1], c[2]) || is_encroached(view, c[2], c[0]);
+}
+
 Expected expected_of_edges(const SurfaceView& view, std::span<const SurfaceFace> faces) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const SurfaceFace& f : faces)

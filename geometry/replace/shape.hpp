@@ -156,6 +156,8 @@ struct Expected {
   std::int64_t weighed(std::int64_t weight) const { return cells + (weight - 1) * poor; }
 };
 Expected expected_of(const Sector& corner);
+/// Does an edge of a face make more expect?
+bool has_encroached_edge(const SurfaceView& view, std::uint32_t face);
 /// Of the edges of some faces, each once.
 Expected expected_of_edges(const SurfaceView& view, std::span<const SurfaceFace> faces);
 /// Of the corners and edges that come with a change, less that of those that go, beyond its rim, too.
