@@ -49,7 +49,7 @@ struct SurfaceReport {
   std::uint64_t split = 0;                         ///< edges, by a new vertex
   /// Changes that were not made, by the first test that refused them.
   struct Refused {
-    std::uint64_t angle = 0;     ///< a corner too small, or a wide flat group broken
+    std::uint64_t angle = 0;     ///< a corner too small, a wide flat group broken, or nothing won where all corners are as wanted
     std::uint64_t fold = 0;      ///< a ridge that was not there
     std::uint64_t cells = 0;     ///< more cells expected; of a split with what follows from it
     std::uint64_t size = 0;      ///< an edge longer than the sizes there
