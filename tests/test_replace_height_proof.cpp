@@ -7,11 +7,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "model_plcs.hpp"
+#include "pgdr/surface.hpp"
 #include "replace/complex.hpp"
 #include "space/distances.hpp"
+#include "surface_distances.hpp"
 
 namespace pgdr::test_replace_height_proof {
 
@@ -192,6 +195,34 @@ TEST(HeightProof, YesIsAProof) {
   std::array<int, 4> counts{};
   for (std::uint64_t seed = 0; seed < 6; ++seed) contract_some(seed, seed % 2 == 0 ? 0.03 : 0.08, counts);
   for (const int count : counts) EXPECT_GT(count, 100);  // both answers come
+}
+
+/// A ball of meridians, all of whose faces at a pole may go with one change: more than are looked at over a plane.
+TEST(HeightProof, PolesOfManyFaces) {
+  constexpr int meridians = 70, rings = 8;
+  Plc<3> plc;
+  plc.points = {{{0, 0, 1}}, {{0, 0, -1}}};
+  for (int j = 1; j < rings; ++j)
+    for (int i = 0; i < meridians; ++i) {
+      const double polar = j * std::numbers::pi / rings, along = 2 * i * std::numbers::pi / meridians;
+      plc.points.push_back({{std::sin(polar) * std::cos(along), std::sin(polar) * std::sin(along), std::cos(polar)}});
+    }
+  const auto number = [](int j, int i) { return static_cast<test::Index>(2 + (j - 1) * meridians + i % meridians); };
+  for (int i = 0; i < meridians; ++i) {
+    test::add_polygon(plc, {0, number(1, i), number(1, i + 1)});
+    test::add_polygon(plc, {1, number(rings - 1, i + 1), number(rings - 1, i)});
+    for (int j = 1; j + 1 < rings; ++j) {
+      test::add_polygon(plc, {number(j, i), number(j + 1, i), number(j + 1, i + 1)});
+      test::add_polygon(plc, {number(j, i), number(j + 1, i + 1), number(j, i + 1)});
+    }
+  }
+  SurfaceOptions options;
+  options.tolerance = 0.05;
+  const ReplacedSurface out = replace_surface(plc, options);
+  EXPECT_LT(out.report.triangles[1], plc.facets.size() / 5);
+  EXPECT_EQ(out.report.sharp_triangles[1], 0u);
+  EXPECT_LE(test::sampled_distance(out.plc, plc, 2), options.tolerance);
+  EXPECT_LE(test::sampled_distance(plc, out.plc, 2), options.tolerance);
 }
 
 }  // namespace pgdr::test_replace_height_proof

@@ -91,31 +91,6 @@ TEST(ReplaceSurface, ScansGetCoarse) {
   }
 }
 
-/// A ball of meridians, all of whose faces at a pole may go with one change.
-TEST(ReplaceSurface, PolesOfManyFaces) {
-  constexpr int meridians = 70, rings = 8;
-  Plc<3> plc;
-  plc.points = {{{0, 0, 1}}, {{0, 0, -1}}};
-  for (int j = 1; j < rings; ++j)
-    for (int i = 0; i < meridians; ++i) {
-      const double polar = j * std::numbers::pi / rings, along = 2 * i * std::numbers::pi / meridians;
-      plc.points.push_back({{std::sin(polar) * std::cos(along), std::sin(polar) * std::sin(along), std::cos(polar)}});
-    }
-  const auto number = [](int j, int i) { return static_cast<Index>(2 + (j - 1) * meridians + i % meridians); };
-  for (int i = 0; i < meridians; ++i) {
-    test::add_polygon(plc, {0, number(1, i), number(1, i + 1)});
-    test::add_polygon(plc, {1, number(rings - 1, i + 1), number(rings - 1, i)});
-    for (int j = 1; j + 1 < rings; ++j) {
-      test::add_polygon(plc, {number(j, i), number(j + 1, i), number(j + 1, i + 1)});
-      test::add_polygon(plc, {number(j, i), number(j + 1, i + 1), number(j, i + 1)});
-    }
-  }
-  const ReplacedSurface out = replaced(plc, 0.05);
-  EXPECT_LT(out.report.triangles[1], plc.facets.size() / 5);
-  EXPECT_EQ(out.report.sharp_triangles[1], 0u);
-  check(plc, out.plc, 0.05, 2);
-}
-
 /// A fin far thinner than the tolerance, twice as high: its tip would be too far from the surface without it.
 TEST(ReplaceSurface, FinsStay) {
   const auto fin = [](double height) {

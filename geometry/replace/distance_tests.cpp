@@ -120,10 +120,6 @@ std::array<Point3, 4> samples_of(const std::array<Point3, 3>& t) {
   return {centre, on_edge(t[0], t[1], 0.5), on_edge(t[1], t[2], 0.5), on_edge(t[0], t[2], 0.5)};
 }
 
-}  // namespace
-
-namespace {
-
 /// Covers faces that come by given triangles of their classes: by what HeightProof does not show.
 class FaceCover {
  public:

@@ -201,7 +201,7 @@ void HeightProof::find_rim() {
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   for (const std::uint32_t f : around)
-    if (!change_.is_gone(f) && s_.boxes[f].meets(near_)) find_staying(f);
+    if (!change_.is_gone(f) && s_.boxes[f].meets(near_)) rim_.push_back(find_staying(f));
 }
 
 std::uint32_t HeightProof::find_staying(std::uint32_t number) {
@@ -240,42 +240,36 @@ bool HeightProof::is_near_beyond(std::uint32_t face, std::size_t edge, std::size
 
 bool HeightProof::shows_given(std::size_t place) {
   if (!plane_ || raised(place).way == 0) return false;
-  const Given& given = given_[place];
-  struct Step {
-    std::uint32_t face;
-    std::uint8_t edges;  // that meet the inside of the given one
-  };
-  std::array<Step, most_steps> steps;
-  std::size_t count = 0;
-  const auto add_staying = [&](std::uint32_t face) {
-    const Overlay o = overlay(faces_[face].raised, given.raised);
-    if (!o.is_any || !o.is_clear || o.apart > plane_->most_apart() || count == most_steps) return false;
-    steps[count++] = {face, o.edges_of_first};
-    return true;
-  };
-  for (std::uint64_t left = given.faces; left != 0; left &= left - 1) {
-    if (count == most_steps) return false;
+  Steps steps;
+  for (std::uint64_t left = given_[place].faces; left != 0; left &= left - 1) {
     const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-    steps[count++] = {k, edges_of(k, place)};
+    if (!steps.add(k, edges_of(k, place))) return false;
   }
-  if (count == 0) {
-    find_rim();
-    const std::uint32_t klass = triangle(place).klass;
-    for (auto f = static_cast<std::uint32_t>(change_.come.size()); f < faces_.size() && count == 0; ++f)
-      if (faces_[f].klass == klass) add_staying(f);
-    if (count == 0) return false;
-  }
-  for (std::size_t k = 0; k < count; ++k)
+  if (steps.count > 0) return is_covered(place, steps);
+  find_rim();
+  const std::uint32_t klass = triangle(place).klass;
+  return std::any_of(rim_.begin(), rim_.end(), [&](std::uint32_t face) {
+    steps.count = 0;
+    return faces_[face].klass == klass && add_staying(face, place, steps) && is_covered(place, steps);
+  });
+}
+
+bool HeightProof::add_staying(std::uint32_t face, std::size_t place, Steps& steps) {
+  const Overlay o = overlay(faces_[face].raised, given_[place].raised);
+  return o.is_any && o.is_clear && o.apart <= plane_->most_apart() && steps.add(face, o.edges_of_first);
+}
+
+/// Goes on from the faces that are known to be over a given triangle.
+bool HeightProof::is_covered(std::size_t place, Steps& steps) {
+  for (std::size_t k = 0; k < steps.count; ++k)
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!has_bit(steps[k].edges, i)) continue;
-      const std::uint32_t other = beyond(steps[k].face, i);
+      if (!has_bit(steps.all[k].edges, i)) continue;
+      const std::uint32_t other = beyond(steps.all[k].face, i);
       if (other == no_index) {
-        if (is_near_beyond(steps[k].face, i, place)) return false;
+        if (is_near_beyond(steps.all[k].face, i, place)) return false;
         continue;
       }
-      const bool is_known = std::any_of(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(count),
-                                        [other](const Step& step) { return step.face == other; });
-      if (!is_known && (other < change_.come.size() || !add_staying(other))) return false;
+      if (!steps.has(other) && (other < change_.come.size() || !add_staying(other, place, steps))) return false;
     }
   return true;
 }

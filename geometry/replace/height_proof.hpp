@@ -12,6 +12,7 @@
 // A yes is a proof; else nothing is said.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -71,6 +72,26 @@ class HeightProof {
     std::uint8_t not_closed = 0;  ///< bit j: there is none
   };
 
+  /// Faces over one given triangle, and which of their edges meet the inside of that.
+  struct Steps {
+    struct Step {
+      std::uint32_t face;
+      std::uint8_t edges;
+    };
+    std::array<Step, most_steps> all;
+    std::size_t count = 0;
+
+    bool add(std::uint32_t face, std::uint8_t edges) {
+      if (count == most_steps) return false;
+      all[count++] = {face, edges};
+      return true;
+    }
+    bool has(std::uint32_t face) const {
+      return std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count),
+                         [face](const Step& step) { return step.face == face; });
+    }
+  };
+
   void add_face(const SurfaceFace& face, std::uint32_t number);
   const RaisedTriangle& raised(std::size_t place);
   const GivenSurface::Triangle& triangle(std::size_t place) const { return s_.given.triangles()[near_given_[place].number]; }
@@ -79,8 +100,10 @@ class HeightProof {
   std::uint32_t find_beyond(std::uint32_t face, std::size_t edge);
   bool is_near_beyond(std::uint32_t face, std::size_t edge, std::size_t place) const;
   bool is_other_side(const Face& face, const Face& other, std::size_t edge) const;
+  bool add_staying(std::uint32_t face, std::size_t place, Steps& steps);
+  bool is_covered(std::size_t place, Steps& steps);
   std::uint32_t find_staying(std::uint32_t number);
-  void find_rim();  ///< the faces that stay, at corners of those that come
+  void find_rim();
   std::uint8_t& edges_of(std::uint32_t face, std::size_t place) { return edges_[face * given_.size() + place]; }
 
   const ChangingSurface& s_;
@@ -94,6 +117,7 @@ class HeightProof {
   std::vector<RaisedTriangle> gone_;  // faces that go, once one is asked for
   std::vector<std::uint8_t> edges_;   // of each that comes and each given one, which of its edges meet the inside of that
   std::optional<Point3> far_;
+  std::vector<std::uint32_t> rim_;  // faces that stay, at corners of those that come, once they are asked for
   bool has_rim_ = false;
 };
 
