@@ -33,7 +33,9 @@ double largest_coordinate(const Plc<3>& plc) {
   return largest;
 }
 
-[[noreturn]] void refuse(const std::string& message) { throw UsageError({.code = Errc::bad_option, .message = message}); }
+[[noreturn]] void refuse_tolerance(const std::string& message) {
+  throw UsageError({.code = Errc::bad_option, .message = message});
+}
 
 }  // namespace
 
@@ -48,16 +50,16 @@ std::optional<SurfaceToleranceText> split_surface_tolerance(const std::string& t
 
 double surface_tolerance(const std::string& text, const Plc<3>& plc, std::optional<double> tolerance) {
   const auto given = split_surface_tolerance(text);
-  if (!given) refuse("--surface-tolerance is a length, or a percentage of the diagonal as 0.1%, not \"" + text + '"');
+  if (!given) refuse_tolerance("--surface-tolerance is a length, or a percentage of the diagonal as 0.1%, not \"" + text + '"');
   const double diagonal = diagonal_of(plc);
   if (given->is_percent && !(diagonal > 0))
-    refuse("--surface-tolerance " + text + ": all points of the input are one, so that it has no diagonal");
+    refuse_tolerance("--surface-tolerance " + text + ": all points of the input are one, so that it has no diagonal");
   const double length = given->is_percent ? given->number / 100 * diagonal : given->number;
-  if (!(length > 0) || !std::isfinite(length)) refuse("--surface-tolerance has to be above 0 and finite, not " + text);
+  if (!(length > 0) || !std::isfinite(length)) refuse_tolerance("--surface-tolerance has to be above 0 and finite, not " + text);
   // A tolerance of 0 leaves what rounding of doubles does, 8 ulps of the largest coordinate.
   const double joined = std::max(tolerance ? *tolerance : tolerance_of(plc), 0x1p-49 * largest_coordinate(plc));
   if (constexpr double times = 16; length < times * joined)
-    refuse(
+    refuse_tolerance(
         format("--surface-tolerance is %.6g, and has to be 16 times the tolerance within which points are one, or more, which "
                "is %.6g",
                length, joined));

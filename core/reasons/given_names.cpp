@@ -88,8 +88,6 @@ std::vector<std::uint32_t> points_of(const Domain<3>& domain, EntityRef entity) 
   return points;
 }
 
-bool has_extent(EntityRef entity) { return entity.kind == EntityKind::segment || entity.kind == EntityKind::facet; }
-
 }  // namespace
 
 template <int D>

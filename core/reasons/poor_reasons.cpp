@@ -23,8 +23,6 @@ namespace {
 
 constexpr std::size_t most_cells_about = 4096;  // an element are looked at for a reason
 
-bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
-
 /// May it be an angle within one plane, where triangles of that are facets of their own, since they are kept? That of two facets
 /// at a segment is none, nor that of two segments.
 template <int D>

@@ -25,6 +25,9 @@
 
 namespace pgdr {
 
+/// Is it a segment or a facet, and no point, so that it makes angles with others?
+inline bool has_extent(EntityRef e) { return e.kind == EntityKind::segment || e.kind == EntityKind::facet; }
+
 /// A PoorReason that names entities of the Domain, as long as it is found.
 struct DomainReason {
   PoorReason::Code code = PoorReason::Code::small_angle;
