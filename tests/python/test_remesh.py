@@ -157,10 +157,11 @@ class Remesh(unittest.TestCase):
         facets += [[len(points) - 1, at(rings - 3, k + 1), at(rings - 3, k)] for k in range(ring)]
         plc = pgdr.Plc(turned(np.array(points), 5), facets=facets, markers=[3] * len(facets))
         old = pgdr.mesh(plc)
-        new = pgdr.remesh(old, surface_tolerance=0.02)
-        self.assertLess(new.input_points, len(points))
-        self.assertLess(abs(new.input_points / pgdr.mesh(plc, surface_tolerance=0.02).input_points - 1), 0.05)
-        self.assertLessEqual(pgdr.check(new, old, surface_tolerance=0.02).exit_code, 1)
+        new = pgdr.remesh(old, surface_tolerance=0.04)
+        self.assertLess(new.input_points, len(points) / 4)
+        # The meshes have other diagonals in the flat facets, from where on not quite the same is made of both.
+        self.assertLess(abs(new.input_points / pgdr.mesh(plc, surface_tolerance=0.04).input_points - 1), 0.1)
+        self.assertLessEqual(pgdr.check(new, old, surface_tolerance=0.04).exit_code, 1)
 
 
 class Units(unittest.TestCase):
