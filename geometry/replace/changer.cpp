@@ -74,13 +74,13 @@ Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal, Trial
   const SurfaceComplex& s = s_.complex;
   if (!regroup(s, change, trial.read) || !are_corners_fine(change, goal)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
+  trial.growth = expected_growth(s, change);
+  if (goal.rule == CornerRule::coarsen && trial.growth.cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
+    return Verdict::cells;
   if (!are_edges_short(change)) return Verdict::size;
   if (!is_place_near(s_, change, numbers::farthest_place * tolerance_) || !keeps_curves(s_, change, goal.distance) ||
       !keeps_distance(s_, change, goal.distance))
     return Verdict::distance;
-  trial.growth = expected_growth(s, change);
-  if (goal.rule == CornerRule::coarsen && trial.growth.cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
-    return Verdict::cells;
   if (!meets_nothing(s_, change)) return Verdict::meets;
   if (!keeps_gaps(s_, change, numbers::narrow_gap * tolerance_)) return Verdict::gap;
   if (change.kind == SurfaceChange::Kind::split && !avoids_wedges(s_, change)) return Verdict::gap;
