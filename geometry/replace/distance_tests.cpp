@@ -120,7 +120,7 @@ std::array<Point3, 4> samples_of(const std::array<Point3, 3>& t) {
   return {centre, on_edge(t[0], t[1], 0.5), on_edge(t[1], t[2], 0.5), on_edge(t[0], t[2], 0.5)};
 }
 
-/// Covers faces that come by given triangles of their classes: by what HeightProof does not show.
+/// Covers faces that come by given triangles of their classes, where HeightProof shows nothing.
 class FaceCover {
  public:
   FaceCover(const ChangingSurface& s, const SurfaceChange& change, double e, std::span<const NearGiven> given)
