@@ -43,13 +43,18 @@ std::size_t CornerLevels::of(HalfTangent corner, HalfTangent wanted) const {
   return static_cast<std::size_t>(at - least_.begin());
 }
 
-bool Changer::are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const {
+const Expected& Changer::growth_of(const SurfaceChange& change, Trial& trial) const {
+  if (!trial.growth) trial.growth = expected_growth(s_.complex, change);
+  return *trial.growth;
+}
+
+bool Changer::are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const {
   const CornerChange c = corners_of(s_.complex, change, rim_corner());
   if (c.kept_come < std::min(c.kept_gone, kept_corner())) return false;
   if (goal.rule == CornerRule::improve) {
     const std::size_t gone = level_of(c.gone, goal.floor), come = level_of(c.come, goal.floor);
     if (gone < level_of(wide_corner, goal.floor)) return come > gone;
-    return come == gone && level_of(c.rim, goal.floor) == gone && expected_growth(s_.complex, change).cells < 0;
+    return come == gone && level_of(c.rim, goal.floor) == gone && growth_of(change, trial).cells < 0;
   }
   if (!c.is_rim_fine) return false;
   if (goal.rule == CornerRule::coarsen) return c.come >= std::min(c.gone, goal.floor);
@@ -72,10 +77,10 @@ bool Changer::are_edges_short(const SurfaceChange& change) const {
 
 Verdict Changer::verdict_of(SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const {
   const SurfaceComplex& s = s_.complex;
-  if (!regroup(s, change, trial.read) || !are_corners_fine(change, goal)) return Verdict::angle;
+  trial.growth.reset();
+  if (!regroup(s, change, trial.read) || !are_corners_fine(change, goal, trial)) return Verdict::angle;
   if (!keeps_folds(s, change, numbers::flat_enough)) return Verdict::fold;
-  trial.growth = expected_growth(s, change);
-  if (goal.rule == CornerRule::coarsen && trial.growth.cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
+  if (goal.rule == CornerRule::coarsen && growth_of(change, trial).cells > numbers::parts_of_cell * numbers::cells_of_two_faces)
     return Verdict::cells;
   if (!are_edges_short(change)) return Verdict::size;
   if (!is_place_near(s_, change, numbers::farthest_place * tolerance_) || !keeps_curves(s_, change, goal.distance) ||
@@ -95,10 +100,12 @@ Verdict Changer::judge(SurfaceChange change, const ChangeGoal& goal, Trial& tria
     trial.read.add(Box<3>::around(change.place).widened(box.longest_side()));
   }
   const Verdict verdict = verdict_of(change, goal, trial);
-  if (verdict == Verdict::yes)
+  if (verdict == Verdict::yes) {
+    growth_of(change, trial);
     trial.change = std::move(change);
-  else
+  } else {
     trial.refused.push_back(verdict);
+  }
   return verdict;
 }
 
@@ -130,7 +137,7 @@ bool Changer::settle(const Trial& trial) {
   SurfaceChange change = *trial.change;
   if (change.kind == SurfaceChange::Kind::split) number_new_vertex(change, static_cast<std::uint32_t>(touched_.size()));
   if (is_transaction_) note(change);
-  growth_ += trial.growth;
+  growth_ += *trial.growth;
   make(change);
   return true;
 }

@@ -37,7 +37,7 @@ enum class Verdict : std::uint8_t { yes, angle, fold, cells, size, distance, mee
 struct Trial {
   std::vector<Verdict> refused;         ///< in their order
   std::optional<SurfaceChange> change;  ///< that passed
-  Expected growth;                      ///< of what it makes expect
+  std::optional<Expected> growth;       ///< of what the one judged last makes expect, once it is asked for
   /// How many changes had been made, where others may be made before this one: then `read` has to be known.
   std::optional<std::size_t> ahead_of;
   /// Where all lies that had a part in it: a face, point or kept edge that does not meet this box had none.
@@ -99,7 +99,8 @@ class Changer {
 
  private:
   Verdict verdict_of(SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const;
-  bool are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal) const;
+  const Expected& growth_of(const SurfaceChange& change, Trial& trial) const;
+  bool are_corners_fine(const SurfaceChange& change, const ChangeGoal& goal, Trial& trial) const;
   bool are_edges_short(const SurfaceChange& change) const;
   void make(const SurfaceChange& change);
   void count_refused(Verdict verdict);

@@ -4,46 +4,30 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
-#include "input/edges.hpp"
+#include "replace/shape.hpp"
 #include "space/distances.hpp"
 
 namespace pgdr::detail {
 namespace {
 
-struct GivenEdge {
-  std::uint64_t ends;
-  std::uint32_t klass, triangle;
-  std::uint8_t from;  // the corner that it starts at
-  bool is_as(const GivenEdge& o) const { return ends == o.ends && klass == o.klass; }
-};
-
-void link(std::vector<GivenSurface::Triangle>& triangles, std::vector<GivenEdge> edges) {
-  std::sort(edges.begin(), edges.end(), [](const GivenEdge& a, const GivenEdge& b) {
-    return a.ends != b.ends ? a.ends < b.ends : a.klass != b.klass ? a.klass < b.klass : a.triangle < b.triangle;
-  });
-  for (std::size_t first = 0, last = 0; first < edges.size(); first = last) {
-    while (last < edges.size() && edges[last].is_as(edges[first])) ++last;
-    if (last - first != 2) continue;
-    const GivenEdge &a = edges[first], &b = edges[first + 1];
-    triangles[a.triangle].beyond[a.from] = b.triangle;
-    triangles[b.triangle].beyond[b.from] = a.triangle;
-  }
-}
-
 std::vector<GivenSurface::Triangle> triangles_of(const SurfaceComplex& s) {
+  std::vector<std::uint32_t> number(s.faces.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t f = 0; f < s.faces.size(); ++f)
+    if (s.faces[f].alive) number[f] = count++;
+  const SurfaceView view(s);
   std::vector<GivenSurface::Triangle> out;
-  std::vector<GivenEdge> edges;
+  out.reserve(count);
   for (std::uint32_t f = 0; f < s.faces.size(); ++f) {
     if (!s.faces[f].alive) continue;
-    const auto number = static_cast<std::uint32_t>(out.size());
     auto c = s.faces[f].corners;
     std::sort(c.begin(), c.end(), [&](std::uint32_t a, std::uint32_t b) { return lex_less(s.at(a), s.at(b)); });
-    out.push_back({{s.at(c[0]), s.at(c[1]), s.at(c[2])}, s.faces[f].klass});
-    for (std::uint8_t i = 0; i < 3; ++i) edges.push_back({edge_key(c[i], c[(i + 1u) % 3]), s.faces[f].klass, number, i});
+    GivenSurface::Triangle t{{s.at(c[0]), s.at(c[1]), s.at(c[2])}, s.faces[f].klass};
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const std::uint32_t other = view.only_other(f, c[i], c[(i + 1) % 3]); other != no_index) t.beyond[i] = number[other];
+    out.push_back(t);
   }
-  link(out, std::move(edges));
   return out;
 }
 

@@ -34,7 +34,7 @@ Vector<3> direction_of(std::vector<Triangle> triangles) {
 
 HeightProof::HeightProof(const ChangingSurface& s, const SurfaceChange& change, double e, std::span<const NearGiven> given,
                          const Box<3>& near)
-    : s_(s), change_(change), e_(e), near_given_(given), near_(near), given_(given.size()) {
+    : s_(s), change_(change), view_(s.complex, &change), e_(e), near_given_(given), near_(near), given_(given.size()) {
   if (change.come.size() > most_faces) return;
   std::vector<Triangle> come;
   Box<3> box = near;
@@ -48,15 +48,16 @@ HeightProof::HeightProof(const ChangingSurface& s, const SurfaceChange& change, 
     plane_.reset();
     return;
   }
-  for (const SurfaceFace& f : change.come) add_face(f, no_index);
+  for (std::size_t k = 0; k < change.come.size(); ++k) add_face(static_cast<std::uint32_t>(s.complex.faces.size() + k));
   edges_.resize(faces_.size() * given_.size());
 }
 
-void HeightProof::add_face(const SurfaceFace& face, std::uint32_t number) {
+void HeightProof::add_face(std::uint32_t number) {
+  const SurfaceFace& face = view_.face(number);
   Face f{face.corners, face.klass, number, {}};
-  const auto at = [&](std::uint32_t v) { return place_after(s_.complex, change_, v); };
-  std::sort(f.corners.begin(), f.corners.end(), [&](std::uint32_t a, std::uint32_t b) { return lex_less(at(a), at(b)); });
-  f.raised = plane_->raised({at(f.corners[0]), at(f.corners[1]), at(f.corners[2])});
+  std::sort(f.corners.begin(), f.corners.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return lex_less(view_.at(a), view_.at(b)); });
+  f.raised = plane_->raised({view_.at(f.corners[0]), view_.at(f.corners[1]), view_.at(f.corners[2])});
   faces_.push_back(f);
 }
 
@@ -90,8 +91,7 @@ bool HeightProof::shows_face(std::size_t k) {
   covering.reserve(given_.size());
   double farthest = plane_->most_apart();
   std::array<double, 3> where{};
-  const auto& complex = s_.complex;
-  const Box<3> reach = Box<3>::of(triangle_after(complex, change_, {face.corners})).widened(e_);
+  const Box<3> reach = Box<3>::of(triangle_after(s_.complex, change_, change_.come[k])).widened(e_);
   for (std::size_t i = 0; i < given_.size(); ++i) {
     if (!near_given_[i].box.meets(reach) || triangle(i).klass != face.klass) continue;
     const RaisedTriangle& t = raised(i);
@@ -112,7 +112,7 @@ bool HeightProof::shows_face(std::size_t k) {
   if (farthest > plane_->most_apart()) {
     far_.emplace();
     for (std::size_t c = 0; c < 3; ++c)
-      for (int i = 0; i < 3; ++i) (*far_)[i] += where[c] * place_after(s_.complex, change_, face.corners[c])[i];
+      for (int i = 0; i < 3; ++i) (*far_)[i] += where[c] * view_.at(face.corners[c])[i];
   }
   const auto is_covered_beyond = [&](const Covering& c, std::size_t edge) {
     if (!is_closed(c.place, edge)) return false;
@@ -160,33 +160,11 @@ std::uint32_t HeightProof::beyond(std::uint32_t face, std::size_t edge) {
 
 /// The one other face of its class at an edge, on the other side; no_index if there is none, or there are more.
 std::uint32_t HeightProof::find_beyond(std::uint32_t face, std::size_t edge) {
-  const SurfaceComplex& c = s_.complex;
-  const std::uint32_t a = faces_[face].corners[edge], b = faces_[face].corners[next_corner(edge)], klass = faces_[face].klass;
-  const auto place = [&](std::uint32_t v) { return place_after(c, change_, v); };
-  if (!Box<3>::of(std::array{place(a), place(b)}).meets(near_)) return no_index;
-  std::uint32_t other = no_index, count = 0;
-  const auto has = [](const std::array<std::uint32_t, 3>& corners, std::uint32_t v) {
-    return corners[0] == v || corners[1] == v || corners[2] == v;
-  };
-  for (std::uint32_t k = 0; k < change_.come.size(); ++k)
-    if (k != face && faces_[k].klass == klass && has(faces_[k].corners, a) && has(faces_[k].corners, b)) {
-      other = k;
-      ++count;
-    }
-  std::uint32_t staying = no_index;
-  if (a < c.points.size() && b < c.points.size()) {
-    const bool fewer_at_b = c.faces_at[b].size() < c.faces_at[a].size();
-    c.each_face_at(fewer_at_b ? b : a, fewer_at_b ? a : b, [&](std::uint32_t f) {
-      if (f == faces_[face].number || c.faces[f].klass != klass || change_.is_gone(f)) return;
-      staying = f;
-      ++count;
-    });
-  }
-  if (count != 1) return no_index;
-  if (staying != no_index) {
-    if (!s_.boxes[staying].meets(near_)) return no_index;
-    other = find_staying(staying);
-  }
+  const std::uint32_t a = faces_[face].corners[edge], b = faces_[face].corners[next_corner(edge)];
+  if (!Box<3>::of(std::array{view_.at(a), view_.at(b)}).meets(near_)) return no_index;
+  const std::uint32_t number = view_.only_other(faces_[face].number, a, b);
+  if (number == no_index || (!view_.is_new(number) && !s_.boxes[number].meets(near_))) return no_index;
+  const std::uint32_t other = place_of(number);
   return faces_[other].raised.way != 0 && is_other_side(faces_[face], faces_[other], edge) ? other : no_index;
 }
 
@@ -201,13 +179,13 @@ void HeightProof::find_rim() {
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   for (const std::uint32_t f : around)
-    if (!change_.is_gone(f) && s_.boxes[f].meets(near_)) rim_.push_back(find_staying(f));
+    if (!change_.is_gone(f) && s_.boxes[f].meets(near_)) rim_.push_back(place_of(f));
 }
 
-std::uint32_t HeightProof::find_staying(std::uint32_t number) {
+std::uint32_t HeightProof::place_of(std::uint32_t number) {
   const auto known = std::find_if(faces_.begin(), faces_.end(), [number](const Face& f) { return f.number == number; });
   const auto place = static_cast<std::uint32_t>(known - faces_.begin());
-  if (known == faces_.end()) add_face(s_.complex.faces[number], number);
+  if (known == faces_.end()) add_face(number);
   return place;
 }
 
@@ -222,7 +200,7 @@ bool HeightProof::may_be_near(std::size_t k, std::size_t place) {
 /// line within the triangle that leaves what is covered there does not come back from beyond.
 bool HeightProof::is_near_beyond(std::uint32_t face, std::size_t edge, std::size_t place) const {
   const RaisedTriangle &f = faces_[face].raised, &g = given_[place].raised;
-  const auto& corners = s_.given.triangles()[near_given_[place].number].corners;
+  const auto& corners = triangle(place).corners;
   std::array<double, 3> beyond;  // of each corner, times the edge's length
   for (std::size_t i = 0; i < 3; ++i) {
     const Point2 &a = f.at[edge], &b = f.at[next_corner(edge)], &p = g.at[i];
@@ -255,6 +233,7 @@ bool HeightProof::shows_given(std::size_t place) {
 }
 
 bool HeightProof::add_staying(std::uint32_t face, std::size_t place, Steps& steps) {
+  if (faces_[face].raised.way == 0) return false;
   const Overlay o = overlay(faces_[face].raised, given_[place].raised);
   return o.is_any && o.is_clear && o.apart <= plane_->most_apart() && steps.add(face, o.edges_of_first);
 }

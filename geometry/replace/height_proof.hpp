@@ -21,6 +21,7 @@
 
 #include "replace/overlay.hpp"
 #include "replace/patch_tests.hpp"
+#include "replace/shape.hpp"
 
 namespace pgdr::detail {
 
@@ -59,7 +60,7 @@ class HeightProof {
   /// A face that comes, or that stays.
   struct Face {
     std::array<std::uint32_t, 3> corners;  ///< in the order of coordinates
-    std::uint32_t klass, number;           ///< number: of the surface; no_index: it comes
+    std::uint32_t klass, number;           ///< number: as in the view
     RaisedTriangle raised;
     std::array<std::uint32_t, 3> beyond{not_known, not_known, not_known};  ///< in faces_, at edge i; no_index: none
   };
@@ -92,7 +93,7 @@ class HeightProof {
     }
   };
 
-  void add_face(const SurfaceFace& face, std::uint32_t number);
+  void add_face(std::uint32_t number);
   const RaisedTriangle& raised(std::size_t place);
   const GivenSurface::Triangle& triangle(std::size_t place) const { return s_.given.triangles()[near_given_[place].number]; }
   bool is_closed(std::size_t place, std::size_t edge);
@@ -102,12 +103,13 @@ class HeightProof {
   bool is_other_side(const Face& face, const Face& other, std::size_t edge) const;
   bool add_staying(std::uint32_t face, std::size_t place, Steps& steps);
   bool is_covered(std::size_t place, Steps& steps);
-  std::uint32_t find_staying(std::uint32_t number);
+  std::uint32_t place_of(std::uint32_t number);  ///< in faces_, of a face of the view
   void find_rim();
   std::uint8_t& edges_of(std::uint32_t face, std::size_t place) { return edges_[face * given_.size() + place]; }
 
   const ChangingSurface& s_;
   const SurfaceChange& change_;
+  SurfaceView view_;  // after the change
   double e_;
   std::span<const NearGiven> near_given_;
   Box<3> near_;

@@ -3,7 +3,9 @@
 #include "replace/overlay.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "pgdr/predicates.hpp"
 
@@ -109,8 +111,10 @@ bool are_apart(const RaisedTriangle& a, const RaisedTriangle& b, double distance
 }
 
 Projection::Projection(const Point3& origin, const Vector<3>& normal, double extent, double e) : origin_(origin) {
-  const double length = std::sqrt(dot(normal, normal));
-  if (!(length > 0) || !std::isfinite(length) || !(extent > 0) || !std::isfinite(extent)) return;
+  // Below the least normal number a square has fewer digits, and what is divided by its root is not of length 1.
+  const double square = dot(normal, normal), length = std::sqrt(square);
+  if (!(square >= std::numeric_limits<double>::min()) || !std::isfinite(square) || !(extent > 0) || !std::isfinite(extent))
+    return;
   auto& [u, v, n] = axes_;
   for (std::size_t i = 0; i < 3; ++i) n[i] = normal[i] / length;
   // The axis that is the least along the normal.
@@ -150,6 +154,7 @@ RaisedTriangle Projection::raised(const std::array<Point3, 3>& corners) const {
 }
 
 Overlay overlay(const RaisedTriangle& first, const RaisedTriangle& second) {
+  assert(first.way != 0 && second.way != 0);
   Overlay o;
   if (!first.box.meets(second.box)) return o;
   Sides of_second, of_first;  // corners of the second one beside edges of the first one, and the other way round

@@ -83,6 +83,16 @@ class SurfaceView {
     });
     return other;
   }
+  /// The one other face of its class at an edge; no_index: there is none, or there are more.
+  std::uint32_t only_other(std::uint32_t f, std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t other = no_index, count = 0;
+    each_face_at(a, b, [&](std::uint32_t g) {
+      if (g == f || face(g).klass != face(f).klass) return;
+      other = g;
+      ++count;
+    });
+    return count == 1 ? other : no_index;
+  }
   bool is_new(std::uint32_t f) const { return f >= s_.faces.size(); }
   bool is_gone(std::uint32_t f) const { return after_ && (index_ ? index_->is_gone(f) : after_->is_gone(f)); }
 
